@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::evaluated::{Row, Settings, of_rows, options};
+use super::evaluated::{Settings, of_rows, options};
 use super::form::Form;
 use super::other_kind::{self, Reads};
 use super::output::{Beside, Complaint};
@@ -13,7 +13,7 @@ use gumption::budget;
 use gumption::document::{Attachment, Document};
 use gumption::fault::say;
 use gumption::files::write::Output;
-use gumption::propagate::{self, ConformityResult, Verdict};
+use gumption::propagate::{self, ConformityResult, EvaluatedRow, Verdict};
 use gumption::report::{self, Language, Report};
 
 #[derive(Debug, clap::Args)]
@@ -124,15 +124,15 @@ fn attached(file: &Path) -> Vec<Attachment> {
 }
 
 /// The document of a file's rows; none of none.
-fn document(args: &Args, rows: &[Row]) -> Option<Document> {
+fn document(args: &Args, rows: &[EvaluatedRow]) -> Option<Document> {
     let in_full = if args.full { rows.len() } else { 1 };
     args.form
         .compose_some(|language| of_rows(rows, language, in_full))
 }
 
 /// The results for other budgets.
-fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complaint> {
-    let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(language)).collect();
+fn save(rows: &[EvaluatedRow], path: &Path, language: Language) -> Result<Output, Complaint> {
+    let reports: Vec<Report<'_>> = rows.iter().map(|row| Report::of(row, language)).collect();
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -146,7 +146,12 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complai
 }
 
 /// Everything that the results are computed from.
-fn archived(args: &Args, file: &Path, rows: &[Row], path: &Path) -> Result<Output, Complaint> {
+fn archived(
+    args: &Args,
+    file: &Path,
+    rows: &[EvaluatedRow],
+    path: &Path,
+) -> Result<Output, Complaint> {
     let result = of_rows(rows, Language::English, 1).ok_or_else(|| say!("there are no results"))?;
     Ok(Output {
         path: path.to_path_buf(),
@@ -155,10 +160,10 @@ fn archived(args: &Args, file: &Path, rows: &[Row], path: &Path) -> Result<Outpu
 }
 
 /// The results as rows of numbers.
-fn table(rows: &[Row], path: &Path) -> Result<Output, Complaint> {
+fn table(rows: &[EvaluatedRow], path: &Path) -> Result<Output, Complaint> {
     let reports: Vec<Report<'_>> = rows
         .iter()
-        .map(|row| row.report(Language::English))
+        .map(|row| Report::of(row, Language::English))
         .collect();
     let content = report::rows(&reports).map_err(|why| say!("no table is written: {why}"))?;
     Ok(Output {
@@ -168,7 +173,7 @@ fn table(rows: &[Row], path: &Path) -> Result<Output, Complaint> {
 }
 
 /// Reads and evaluates one file; says on standard error what fails, and goes on.
-fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
+fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<EvaluatedRow> {
     let loaded = match budget::load_under(file, args.settings.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
@@ -190,7 +195,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
                 if evaluation.conformity.iter().any(rejected) {
                     *worst = (*worst).max(Outcome::Negative);
                 }
-                rows.push(Row {
+                rows.push(EvaluatedRow {
                     label,
                     budget,
                     evaluation,

@@ -8,7 +8,7 @@ use gumption::Files;
 use gumption::budget::{self, Budget, Points, Profile, Trials, Wanted};
 use gumption::document::Document;
 use gumption::fault::say;
-use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption::propagate::{self, EvaluatedRow, MonteCarloChoice, Options};
 use gumption::report::{self, Language, Report};
 
 /// What changes the file's own settings.
@@ -94,7 +94,7 @@ pub(super) fn machine(
         let options = options(settings, None, &budget, &propagate::Progress::default());
         let evaluation = propagate::evaluate(&budget, &options)
             .map_err(|error| say!("{name} gives no result: {}", error.said()))?;
-        rows.push(Row {
+        rows.push(EvaluatedRow {
             label,
             budget,
             evaluation,
@@ -104,27 +104,13 @@ pub(super) fn machine(
 }
 
 /// The document of rows in one language; none of none.
-pub(super) fn of_rows(rows: &[Row], language: Language, in_full: usize) -> Option<Document> {
-    let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(language)).collect();
+pub(super) fn of_rows(
+    rows: &[EvaluatedRow],
+    language: Language,
+    in_full: usize,
+) -> Option<Document> {
+    let reports: Vec<Report<'_>> = rows.iter().map(|row| Report::of(row, language)).collect();
     report::evaluations(&reports, in_full)
-}
-
-/// An evaluated row of a file.
-pub(super) struct Row {
-    pub label: Option<String>,
-    pub budget: Budget,
-    pub evaluation: Evaluation,
-}
-
-impl Row {
-    pub fn report(&self, language: Language) -> Report<'_> {
-        Report {
-            budget: &self.budget,
-            evaluation: &self.evaluation,
-            label: self.label.as_deref(),
-            language,
-        }
-    }
 }
 
 /// What the arguments change in the budget's own settings.
@@ -144,10 +130,10 @@ pub(super) fn options(
             indices: args.indices,
         }))
     };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let every_core = Options::default().threads;
     Options {
         monte_carlo,
-        threads: threads.map_or(cores, usize::from),
+        threads: threads.map_or(every_core, usize::from),
         progress: progress.clone(),
     }
 }

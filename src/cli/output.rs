@@ -252,10 +252,11 @@ pub(super) fn note(text: &str, lang: Language) {
 
 /// What long work will take, before it does.
 pub(super) fn tell_size(readings: u64, bytes: u64, lang: Language) {
+    const GIB: u64 = 1 << 30;
     /// As much as nobody notices.
-    const LITTLE: u64 = 1 << 30;
+    const LITTLE: u64 = GIB;
     if bytes > LITTLE {
-        let size = bytes as f64 / LITTLE as f64;
+        let size = bytes as f64 / GIB as f64;
         let told = say!("{readings} readings take about {size:.1} GiB of memory");
         warn(&format!("{}\n", told.in_language(lang)));
     }

@@ -7,7 +7,7 @@ use super::other_kind::{self, Reads};
 use super::output::Target;
 use super::{Outcome, output};
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Failure, simulate};
+use gumption::diagnose::simulate;
 use gumption::fault::say;
 use gumption::report::{self, Language};
 
@@ -49,6 +49,6 @@ pub(super) fn run(args: &Args) -> Outcome {
             let text = simulation.sheet.csv();
             args.target.write(text.into_bytes(), Vec::new())
         }
-        Err(why) => failed(&args.case, &case, &Failure::Fit(why), lang),
+        Err(why) => failed(&args.case, &case, &why, lang),
     }
 }

@@ -264,7 +264,9 @@ fn names_vanish_where_conditions_are_foreign() {
 /// Where the right names are taken out of the catalogue they are not given, and something is noticed all the same.
 #[test]
 fn what_is_taken_out_of_the_catalogue_is_not_named() {
-    for (_, ablated) in ablated(Ablation::WithoutTruth, 4) {
+    let pairs = ablated(Ablation::WithoutTruth, 4);
+    assert_eq!(pairs.len(), 4);
+    for (_, ablated) in pairs {
         let (answer, _) = diagnosed(&ablated);
         assert!(answer.has_noticed(), "{}", ablated.truth.scenario);
         for name in answer.effects.iter().flat_map(|effect| &effect.named) {

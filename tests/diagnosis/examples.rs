@@ -193,7 +193,7 @@ fn a_term_of_the_model_is_not_unseen() {
     }
     let u = |key: &str| found[key]["R0"].as_f64();
     let own = found["parameters"][0]["u"].as_f64().expect("a number");
-    assert!(u("u_with_unseen") < Some(5.0 * own), "{found}");
+    assert!(u("u_with_unseen").is_some_and(|u| u < 5.0 * own), "{found}");
     let line = diagnosed_with("line-declared", &text, &case("R0 * (1 + A*T)", ""));
     assert_eq!(named(&line), ["tempco-quadratic"]);
 }

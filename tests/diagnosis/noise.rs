@@ -390,7 +390,7 @@ fn a_second_effect_is_held_against_noise_beside_the_first() {
         assert!(scale || effects == 1, "{seed}: {names:?}");
         assert!(found["effects"].as_array().map_or(0, Vec::len) >= effects);
         // Each p counts the recordings of the test that gave it, with the one observed.
-        for level in found["levels"].as_array().into_iter().flatten() {
+        for level in found["levels"].as_array().expect("levels") {
             let figure = |key: &str| level[key].as_f64().unwrap_or(f64::NAN);
             let counted = figure("p") * (figure("draws") + 1.0);
             assert!((counted - counted.round()).abs() < 1e-6, "{level}");

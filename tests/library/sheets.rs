@@ -9,7 +9,7 @@ use gumption::audit::{Audit, Verdict, audit, claims};
 use gumption::budget::{self, Budget, Component, Figure, Owner};
 use gumption::files::Files;
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
-use gumption::quantity::{Decimal, Grouping, PowerStyle, Rounding, Style, Unit};
+use gumption::quantity::{Decimal, PowerStyle, Rounding, Unit};
 use gumption::verify::LIBRARY;
 
 /// A published budget with one measurand, as a calculation in rows.
@@ -80,12 +80,8 @@ enum Layout {
 const LAYOUTS: [Layout; 3] = [Layout::Full, Layout::Chinese, Layout::Notes];
 
 fn digits(x: f64, digits: u8) -> String {
-    const STYLE: Style = Style {
-        grouping: Grouping::None,
-        power: PowerStyle::Caret,
-    };
     let rounded = Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven);
-    rounded.print(STYLE)
+    rounded.print(PowerStyle::Caret)
 }
 
 fn symbol(unit: &Unit) -> String {

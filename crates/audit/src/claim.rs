@@ -1,6 +1,7 @@
 //! A claim: what a laboratory states and what it says it computed from it, as read.
 
 use crate::printed::{Place, Printed};
+use gumption_core::special::normal_cdf;
 
 /// One budget as somebody claims it.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -209,10 +210,41 @@ pub const RANGE: [(f64, f64); 8] = [
     (2.97, 6.8),
 ];
 
-/// C(n) and ν of the range method; those of 9 beyond the table.
+/// C(n) and ν of the range method, for 9 readings at most those of the table.
 pub(crate) fn range_factor(n: f64) -> (f64, f64) {
-    let place = (n as usize).clamp(2, 9) - 2;
-    RANGE[place]
+    let table = (n as usize).max(2) - 2;
+    RANGE
+        .get(table)
+        .copied()
+        .unwrap_or_else(|| range_of_normal(n))
+}
+
+/// Expectation d₂ of the range of n standard normal readings, and the degrees of freedom d₂²/(2 d₃²) of its standard deviation
+/// d₃, of which the table has rounded values: d₂ = ∫ 1 − Φⁿ − (1 − Φ)ⁿ, and the second moment is twice the integral over
+/// x < y of 1 − Φ(y)ⁿ − (1 − Φ(x))ⁿ + (Φ(y) − Φ(x))ⁿ (L. H. C. Tippett, 1925).
+fn range_of_normal(n: f64) -> (f64, f64) {
+    const STEP: f64 = 0.1;
+    const END: i32 = 80;
+    let phi: Vec<f64> = (-END..=END)
+        .map(|place| normal_cdf(f64::from(place) * STEP))
+        .collect();
+    let below: Vec<f64> = phi.iter().map(|phi| phi.powf(n)).collect();
+    let above: Vec<f64> = phi.iter().map(|phi| (1.0 - phi).powf(n)).collect();
+    let outer = below.iter().zip(&above);
+    let mean: f64 = outer.map(|(below, above)| 1.0 - below - above).sum();
+    let mut square = 0.0;
+    for (y, below) in below.iter().enumerate() {
+        for (x, above) in above[..=y].iter().enumerate() {
+            let whole = 1.0 - below - above + (phi[y] - phi[x]).powf(n);
+            // The diagonal is an end of each inner integral.
+            square += if x == y { whole } else { 2.0 * whole };
+        }
+    }
+    // Trapezia of what ends flat are exact here. The inner integrals end on the diagonal with the slope nφ(1 − Φ)ⁿ⁻¹, whose
+    // integral is 1: by Euler and Maclaurin they are too large by STEP²/12 together.
+    let d2 = mean * STEP;
+    let variance = square * STEP * STEP - STEP * STEP / 6.0 - d2 * d2;
+    (d2, d2 * d2 / (2.0 * variance))
 }
 
 /// Distribution of limits.
@@ -380,5 +412,34 @@ impl Claimed {
         self.rows
             .iter()
             .all(|row| row.u.is_none() && row.contribution.is_none())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table of JJF 1059.1 to its digits, and d₂ and d₃ of control charts (ASTM E2587, table 2).
+    #[test]
+    fn ranges_of_normal_readings() {
+        for (n, (c, dof)) in (2_u32..).zip(RANGE) {
+            let found = range_of_normal(f64::from(n));
+            assert!(
+                (found.0 - c).abs() < 0.006 && (found.1 - dof).abs() < 0.06,
+                "{n}: {found:?}"
+            );
+        }
+        for (n, d2, d3) in [
+            (10.0, 3.078, 0.797),
+            (15.0, 3.472, 0.756),
+            (25.0, 3.931, 0.708),
+        ] {
+            let (c, dof) = range_factor(n);
+            let d = c / (2.0 * dof).sqrt();
+            assert!(
+                (c - d2).abs() < 0.001 && (d - d3).abs() < 0.001,
+                "{n}: {c}, {d}"
+            );
+        }
     }
 }

@@ -6,6 +6,7 @@ use crate::calculate::Case;
 use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
+use gumption_format::toml::writing::quoted;
 
 /// A budget file, with remarks as comments where the sheet leaves something open.
 pub(crate) fn budget_file(case: &Case<'_>) -> String {
@@ -127,8 +128,11 @@ fn names(claimed: &Claimed) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (i, row) in claimed.rows.iter().enumerate() {
         let wanted = identifier(&row.symbol, &format!("x_{}", i + 1));
-        let free = !names.contains(&wanted) && wanted != identifier(&claimed.measurand, "y");
-        names.push(if free { wanted } else { format!("x_{}", i + 1) });
+        let result = identifier(&claimed.measurand, "y");
+        let is_free = |name: &String| !names.contains(name) && *name != result;
+        let numbered = (i + 1..).map(|number| format!("x_{number}"));
+        let name = std::iter::once(wanted).chain(numbered).find(is_free);
+        names.extend(name);
     }
     names
 }
@@ -148,20 +152,6 @@ fn identifier(symbol: &str, otherwise: &str) -> String {
     } else {
         otherwise.to_string()
     }
-}
-
-pub(crate) fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }
 
 /// One input of the file.

@@ -1,6 +1,6 @@
 //! Figures as they are printed: value and half a unit in the last place.
 
-use gumption_core::quantity::{Decimal, Grouping, PowerStyle, Style};
+use gumption_core::quantity::Decimal;
 
 /// Where a figure stands: sheet, row and column, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
@@ -48,12 +48,6 @@ pub struct Printed {
 /// Beyond the digits that are printed, figures agree to this relative difference: sheets hold derivatives that were found
 /// as quotients of differences, and constants written with seven digits.
 const DOUBLE: f64 = 1e-6;
-
-/// Digits and a point, and nothing else.
-pub(crate) const PLAIN: Style = Style {
-    grouping: Grouping::None,
-    power: PowerStyle::Caret,
-};
 
 impl Printed {
     /// A figure that is known exactly.

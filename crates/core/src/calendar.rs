@@ -33,9 +33,25 @@ impl Day {
             let plain = part.bytes().all(|byte| byte.is_ascii_digit());
             plain.then(|| part.parse::<u64>().ok()).flatten()
         };
-        let (year, month, day) = (number(4)?, number(2)?, number(2)?);
-        let exists = (1..=12).contains(&month) && (1..=days_of(year, month)).contains(&day);
+        Day::of(number(4)?, number(2)?, number(2)?)
+    }
+
+    /// The day of these numbers; nothing where there is no such day.
+    pub fn of(year: u64, month: u64, day: u64) -> Option<Day> {
+        let exists =
+            year <= 9999 && (1..=12).contains(&month) && (1..=days_of(year, month)).contains(&day);
         exists.then_some(Day { year, month, day })
+    }
+
+    /// Days since 1970-01-01, fewer than none before.
+    pub fn since_1970(self) -> i64 {
+        let (year, month, day) = (self.year as i64, self.month as i64, self.day as i64);
+        // Years that begin in March have their leap day at the end.
+        let year = if month <= 2 { year - 1 } else { year };
+        let months = (month + 9) % 12;
+        let of_year = (153 * months + 2) / 5 + day - 1;
+        let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+        365 * year + leap_days + of_year - 719_468
     }
 
     /// The day that is so many days after 1970-01-01.
@@ -105,6 +121,14 @@ mod tests {
         assert_eq!(day(47_540), "2100-02-28");
         assert_eq!(day(47_541), "2100-03-01");
         assert_eq!(day(146_097), "2370-01-01");
+        for days in [0, 59, 11_016, 20_454, 47_541, 146_097] {
+            assert_eq!(Day::after_1970(days).since_1970(), days as i64);
+        }
+        // The first day of the Gregorian calendar, and that of Julian day 2 451 545 (J2000) less its 10 957 days since 1970.
+        let since = |text| Day::read(text).map(Day::since_1970);
+        assert_eq!(since("1582-10-15"), Some(2_299_161 - 2_440_588));
+        assert_eq!(since("1969-12-31"), Some(-1));
+        assert_eq!(since("2000-01-01"), Some(10_957));
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub use system::of_system;
 /// `model::faults::CODES`, …).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Code {
-    /// `B…` for the budget file, `C…` for calibration files, `D…` for case files, `E…` for evaluation, `M…` for the
+    /// `B…` for the budget file, `C…` for calibration files, `D…` for case files, `E…` for evaluation, `F…` for fleets, `M…` for the
     /// model language, `Q…` for measurement equations, `R…` for recordings, `U…` for units.
     pub id: &'static str,
     /// One line: what is wrong.

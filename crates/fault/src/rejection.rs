@@ -9,7 +9,7 @@ use super::{Fault, Said};
 use crate::harmless::{harmless, harmless_in_place};
 use crate::language::Language;
 
-/// Nobody mends more at once.
+/// Faults of a file that are shown.
 const SHOWN: usize = 25;
 
 /// A file that was refused, and why.
@@ -31,6 +31,12 @@ impl Rejection {
         let first = self.faults.first();
         first.map_or_else(Said::default, |fault| fault.message.clone())
     }
+
+    /// The faults that are shown: nobody mends more at once.
+    pub fn shown(&self) -> &[Fault] {
+        &self.faults[..self.faults.len().min(SHOWN)]
+    }
+
     /// Sorts the faults by place and drops repeated ones.
     pub fn new(name: &str, text: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by(|a, b| {
@@ -58,7 +64,7 @@ impl Rejection {
             Renderer::plain()
         };
         let mut out = String::new();
-        for fault in self.faults.iter().take(SHOWN) {
+        for fault in self.shown() {
             out += &self.draw(fault, language, &renderer);
             out += "\n\n";
         }

@@ -60,14 +60,12 @@ impl Agreement {
 
 /// Rows of a group that can be tested.
 pub(crate) fn testable(measurand: &MeasurandValues, members: &Members) -> usize {
-    match &measurand.reference {
-        Some((_, reference)) => {
-            let known = |row: &&usize| reference.expanded[**row].is_finite();
-            members.weighed.iter().filter(known).count()
-        }
-        None if members.weighed.len() > 1 => members.weighed.len(),
-        None => 0,
-    }
+    let own = &measurand.values.expanded;
+    let is_known = |row: &&usize| match &measurand.reference {
+        Some((_, reference)) => own[**row].is_finite() && reference.expanded[**row].is_finite(),
+        None => members.weighed.len() > 1 && own[**row].is_finite(),
+    };
+    members.weighed.iter().filter(is_known).count()
 }
 
 /// Forms E_n of all rows; `tests` is the number of them over all measurands.
@@ -179,7 +177,7 @@ impl<'v> Against<'v> {
                 // Of an exact value 0/k is 0; where neither u nor k is stated, k is that of the row.
                 let other = (reference.estimate[row], u, reference.dof[row]);
                 let expanded = of_difference(values.expanded[row], reference.expanded[row]);
-                if !(expanded.is_finite() && u.is_finite()) {
+                if !u.is_finite() {
                     return None;
                 }
                 (Deviation::of(values, row, other), expanded)
@@ -190,6 +188,9 @@ impl<'v> Against<'v> {
                 (deviation, values.k(row) * deviation.u)
             }
         };
+        if !expanded.is_finite() {
+            return None;
+        }
         let is_beyond = deviation.difference.abs() > expanded;
         Some(Compared {
             expanded,

@@ -1,6 +1,7 @@
 //! One measurand in one group of rows: where the estimates lie, whether they scatter as their u says, what makes u large.
 
 use gumption_core::special::{chi_squared_sf, f_cdf, f_sf};
+use gumption_core::statistics::median;
 
 use crate::deviation::{Others, SIGNIFICANCE, weight};
 use crate::parallel::in_order;
@@ -213,22 +214,4 @@ fn components(measurand: &MeasurandValues, rows: &[usize]) -> Vec<Component> {
         median_share: median(rows.iter().map(|row| shares[*row]).collect()),
     };
     all.map(component).collect()
-}
-
-/// The middle one of numbers, or the mean of the two in the middle; of those that are numbers.
-pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.retain(|x| !x.is_nan());
-    let count = numbers.len();
-    if count == 0 {
-        return f64::NAN;
-    }
-    let (below, upper, _) = numbers.select_nth_unstable_by(count / 2, f64::total_cmp);
-    match count % 2 {
-        1 => *upper,
-        _ => below
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max)
-            .midpoint(*upper),
-    }
 }

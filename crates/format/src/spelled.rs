@@ -157,7 +157,10 @@ pub(super) fn sexagesimal(text: &str) -> Option<(f64, Range<usize>)> {
     };
     let seconds = match seconds.trim() {
         "" => 0.0,
-        written => below_sixty(written.strip_suffix(['″', '"', '”', '秒'])?)?,
+        written => {
+            let number = written.strip_suffix(['″', '"', '”', '秒']);
+            below_sixty(number.or_else(|| written.strip_suffix("''"))?)?
+        }
     };
     let degrees = unsigned(degrees).filter(|degrees| degrees.fract() == 0.0)?;
     let total = degrees * 3600.0 + below_sixty(minutes)? * 60.0 + seconds;

@@ -207,12 +207,7 @@ fn figures(
             estimate: result.gum.estimate,
             expanded: result.gum.coverage.expanded,
         };
-        let unit = output.unit.difference();
-        let unit = if unit.is_one() {
-            String::new()
-        } else {
-            unit.typeset()
-        };
+        let unit = output.unit.difference().after_number();
         (output.name.clone(), unit, figures)
     });
     Ok(rows.collect())
@@ -245,10 +240,9 @@ fn entries(old: &Table, new: &Table) -> Vec<String> {
 /// The later version where an edit is made, the earlier one elsewhere.
 fn mixture(old: &Table, new: &Table, made: &dyn Fn(&str) -> bool) -> Table {
     let mut mixed = Table::new();
-    let mut all: Vec<String> = names(old).chain(names(new)).collect();
-    all.sort();
-    all.dedup();
-    for name in all {
+    // In the order of the file: a measurand may use those above it.
+    let taken_out = names(old).filter(|name| entry(new, name).is_none());
+    for name in names(new).chain(taken_out) {
         let from = if made(&name) { new } else { old };
         let Some(value) = entry(from, &name) else {
             continue;
@@ -351,6 +345,24 @@ mod tests {
         let changed = &found.measurands[0];
         assert_eq!(changed.by_edit[1].estimate, 1.0);
         assert!(changed.left().expanded.abs() < 1e-12);
+    }
+
+    /// A measurand may use those above it, whatever their names: P = R·I² with I = 2 A and R from 3 Ω to 5 Ω.
+    #[test]
+    fn measurands_keep_their_order() {
+        let old = "[measurand.R]\nmodel = \"r\"\nunit = \"ohm\"\n[measurand.P]\nmodel = \"R*I^2\"\nunit = \"W\"\n\
+            [input]\nr = { value = 3, unit = \"ohm\", u = 0.1 }\nI = { value = 2, unit = \"A\", u = 0.1 }\n";
+        let new = old.replace("value = 3", "value = 5").replace(
+            "value = 2, unit = \"A\", u = 0.1",
+            "value = 2, unit = \"A\", u = 0.2",
+        );
+        let found = versions(old, &new, load).expect("two budgets");
+        assert_eq!(found.edits, [["input.I"], ["input.r"]]);
+        let power = &found.measurands[1];
+        assert_eq!(
+            (power.by_edit[0].estimate, power.by_edit[1].estimate),
+            (0.0, 8.0)
+        );
     }
 
     #[test]

@@ -12,7 +12,7 @@ use gumption_format::csv;
 use gumption_format::document::Attachment;
 use gumption_format::files::Files;
 use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
-use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
+use gumption_gum::propagate::{self, EvaluatedRow, MonteCarloChoice, Options, Progress};
 use gumption_lab::calibrate::{self as calibrations, Campaign, Trouble};
 use gumption_lab::diagnose::case::{self, Case};
 use gumption_lab::diagnose::{self as diagnoses, Failure};
@@ -24,7 +24,7 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::language::spoken;
-use crate::made::{Made, Row, What};
+use crate::made::{Made, What};
 use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::table::{Given, Rows};
@@ -134,7 +134,7 @@ pub(crate) fn evaluate(
             .map(|budget::Row { label, budget }| {
                 let options = settings.options(&budget, &trials);
                 match propagate::evaluate(&budget, &options) {
-                    Ok(evaluation) => Ok(Row {
+                    Ok(evaluation) => Ok(EvaluatedRow {
                         label,
                         budget,
                         evaluation,
@@ -146,7 +146,7 @@ pub(crate) fn evaluate(
                     }
                 }
             });
-        rows.collect::<Result<Vec<Row>, Unmade>>()
+        rows.collect::<Result<Vec<EvaluatedRow>, Unmade>>()
     })?;
     let file = source.with(|files, path| files.read(path)).ok();
     let file = file.map(|content| Attachment {
@@ -307,7 +307,7 @@ pub(crate) fn simulate(
         let case = case(&source, case::Purpose::Plan)?;
         match diagnoses::simulate(&case, seed) {
             Ok(simulation) => Ok(simulation.sheet.csv()),
-            Err(why) => Err(failed(&case, &Failure::Fit(why), language)),
+            Err(why) => Err(failed(&case, &why, language)),
         }
     })?;
     simulated.map_err(|why: Unmade| why.raised(py, language))

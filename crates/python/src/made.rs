@@ -10,8 +10,7 @@ use gumption_fault::language::Language;
 use gumption_fleet::Fleet;
 use gumption_format::document::{Administration, Attachment, Document};
 use gumption_format::files::write::{Output, Replacing, Unwritten, Why, write};
-use gumption_gum::budget::{Budget, MonteCarloSettings};
-use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption_gum::propagate::{self, EvaluatedRow};
 use gumption_lab::calibrate::{self, Calibration, Campaign};
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::{self, Diagnosis};
@@ -26,17 +25,10 @@ use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::watch::watched;
 
-/// An evaluated row of a budget file.
-pub(crate) struct Row {
-    pub label: Option<String>,
-    pub budget: Budget,
-    pub evaluation: Evaluation,
-}
-
 /// What was computed, with what it was computed from.
 pub(crate) enum What {
     /// At least one row, and the file of the budget.
-    Evaluation(Vec<Row>, Option<Attachment>),
+    Evaluation(Vec<EvaluatedRow>, Option<Attachment>),
     Calibration(Box<Campaign>, Box<Calibration>),
     CalibrationPlan(Box<Campaign>, Box<calibrate::Plan>),
     Diagnosis(Box<Case>, Box<Diagnosis>),
@@ -50,7 +42,8 @@ impl What {
     fn document(&self, language: Language) -> Document {
         match self {
             What::Evaluation(rows, _) => {
-                let reports: Vec<Report<'_>> = rows.iter().map(|r| r.report(language)).collect();
+                let reports: Vec<Report<'_>> =
+                    rows.iter().map(|row| Report::of(row, language)).collect();
                 report::evaluations(&reports, reports.len()).expect("a file has a row")
             }
             What::Calibration(campaign, found) => report::calibration(campaign, found, language),
@@ -71,32 +64,6 @@ impl What {
         match self {
             What::Evaluation(_, file) => file.iter().cloned().collect(),
             _ => Vec::new(),
-        }
-    }
-}
-
-impl Row {
-    fn report(&self, language: Language) -> Report<'_> {
-        Report {
-            budget: &self.budget,
-            evaluation: &self.evaluation,
-            label: self.label.as_deref(),
-            language,
-        }
-    }
-
-    /// Those with which further trials are of the run that was evaluated.
-    fn options(&self) -> Options {
-        let run = self.evaluation.run.as_ref();
-        let monte_carlo = run.map_or(MonteCarloChoice::AsBudget, |run| {
-            MonteCarloChoice::With(MonteCarloSettings {
-                seed: run.seed,
-                ..self.budget.monte_carlo.clone()
-            })
-        });
-        Options {
-            monte_carlo,
-            ..Options::default()
         }
     }
 }

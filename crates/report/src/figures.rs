@@ -199,7 +199,7 @@ fn product(a: &Decimal, b: &Decimal) -> f64 {
 /// An uncertainty as it is written beside y ± U: one sentence holds no figure in two forms, 0.000037 and 3.7×10^-5.
 fn beside(pair: &Rounded, uncertainty: &Decimal) -> String {
     match pair.is_plain() {
-        true => uncertainty.print_plain(STYLE),
+        true => uncertainty.print_plain(),
         false => print(uncertainty),
     }
 }

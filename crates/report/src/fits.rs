@@ -6,9 +6,7 @@ use gumption_gum::budget::{Fit, FitColumn, FitDoubt, FitVerdict, LackOfFit, Lack
 
 use super::figures::with_unit;
 use super::language::{Language, Word};
-use super::number::{
-    STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
-};
+use super::number::{TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant};
 use super::statement::coefficient;
 use super::{Report, joint, symbol};
 use gumption_format::document::Block;
@@ -207,7 +205,7 @@ fn shown(p: f64) -> String {
     if p < 0.001 {
         "< 0.001".to_string()
     } else {
-        format!("= {}", at_place(p, -3).print_plain(STYLE))
+        format!("= {}", at_place(p, -3).print_plain())
     }
 }
 
@@ -322,7 +320,7 @@ fn points(l: Language, fit: &Fit) -> Table {
         // Beyond the digits of a double, zeros would only fill up.
         let rounded = at_place(x, place);
         Cell::from(match place.abs() <= 15 {
-            true => rounded.print_plain(STYLE),
+            true => rounded.print_plain(),
             false => print(&rounded),
         })
     };

@@ -72,7 +72,17 @@ fn sentences(report: &Report<'_>, indices: &SensitivityIndices, of: &[SobolIndex
     let l = report.language;
     let trials = grouped(indices.trials);
     let sum = print(&at_place(of.iter().map(|index| index.first).sum(), PLACE));
-    let mut lines = vec![say!("S is the part of the variance that the input makes alone, S_T the part that it takes part in. The first-order indices sum to {sum}; what is missing to 1 comes from inputs acting together. Errors are standard errors, from two times {trials} trials.").in_language(l)];
+    let of_sum = match SobolIndex::leave_a_part(of) {
+        true => say!(
+            "The first-order indices sum to {sum}; what is missing to 1 comes from inputs acting together."
+        ),
+        false => say!(
+            "The first-order indices sum to {sum}, which is 1 within their errors: nothing shows inputs acting together."
+        ),
+    };
+    let mut lines = vec![
+        say!("S is the part of the variance that the input makes alone, S_T the part that it takes part in. {of_sum} Errors are standard errors, from two times {trials} trials.").in_language(l),
+    ];
     for factor in indices.factors.iter().filter(|factor| factor.len() > 1) {
         let names: Vec<String> = names(report, factor)
             .into_iter()

@@ -73,7 +73,7 @@ pub use versions::{incomparable, versions};
 
 use gumption_core::quantity::Unit;
 use gumption_gum::budget::Budget;
-use gumption_gum::propagate::{Evaluation, FindingKind};
+use gumption_gum::propagate::{EvaluatedRow, Evaluation, FindingKind};
 
 /// One evaluated budget, ready to be shown.
 #[derive(Debug, Clone, Copy)]
@@ -89,6 +89,16 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
+    /// That of a row of a file.
+    pub fn of(row: &'a EvaluatedRow, language: Language) -> Report<'a> {
+        Report {
+            budget: &row.budget,
+            evaluation: &row.evaluation,
+            label: row.label.as_deref(),
+            language,
+        }
+    }
+
     /// The title of the budget; where it has none, what is measured.
     fn title(&self) -> String {
         match self.budget.heading.titled(self.language) {
@@ -130,9 +140,5 @@ impl<'a> Report<'a> {
 /// The unit as printed after a number (`Ω` for `ohm`); nothing for the unit one. Uncertainties and other differences of a
 /// Celsius temperature are in °C as well, as certificates have it: the number in kelvin is the same (SI Brochure, 2.3.1).
 fn symbol(unit: &Unit) -> String {
-    if unit.is_one() {
-        String::new()
-    } else {
-        unit.typeset()
-    }
+    unit.after_number()
 }

@@ -1,7 +1,7 @@
 //! How numbers look in tables and sentences: significant digits, alignment with an uncertainty,
 //! percentages, counts.
 
-use gumption_core::quantity::{Decimal, PowerStyle, Rounding, Style};
+use gumption_core::quantity::{Decimal, PowerStyle, Rounding};
 
 /// Shown where a number does not exist.
 pub(super) const NONE: &str = "—";
@@ -11,10 +11,7 @@ pub(super) const NONE: &str = "—";
 pub(super) const TABLE_DIGITS: u8 = 3;
 
 /// Powers of ten as `×10^-5`: legible in every font of a terminal.
-pub(super) const STYLE: Style = Style {
-    grouping: gumption_core::quantity::Grouping::None,
-    power: PowerStyle::Caret,
-};
+pub(super) const STYLE: PowerStyle = PowerStyle::Caret;
 
 /// A decimal number, or a dash for none.
 pub(super) fn print(number: &Decimal) -> String {
@@ -43,7 +40,7 @@ fn shown(rounded: &Decimal) -> String {
         (Some(leading), Some(place)) if place > 0 => {
             format!(
                 "{}{}",
-                rounded.shifted(-leading).print_plain(STYLE),
+                rounded.shifted(-leading).print_plain(),
                 STYLE.power(leading)
             )
         }
@@ -97,7 +94,7 @@ pub(super) fn percent(share: f64) -> String {
 pub(super) fn probability(p: f64) -> String {
     // Two digits of whichever is smaller, it or its complement, and two decimals at least.
     let rarer = libm::log10(100.0 * p.min(1.0 - p)).floor();
-    let text = at_place(100.0 * p, (rarer - 1.0).clamp(-12.0, -2.0) as i32).print_plain(STYLE);
+    let text = at_place(100.0 * p, (rarer - 1.0).clamp(-12.0, -2.0) as i32).print_plain();
     format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
 }
 

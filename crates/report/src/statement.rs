@@ -13,7 +13,7 @@ use gumption_gum::propagate::{
 
 use super::figures::Figures;
 use super::language::Language;
-use super::number::{NONE, STYLE, at_place, grouped, probability};
+use super::number::{NONE, at_place, grouped, probability};
 use super::{Report, decisions};
 
 /// One sentence (or a few) per measurand, one for the correlation of several, and one per decision.
@@ -23,7 +23,7 @@ pub fn statement(report: &Report<'_>) -> Vec<String> {
         .collect();
     let evaluated = match sentences.is_empty() {
         true => None,
-        false => certified(report),
+        false => certified(std::slice::from_ref(report)),
     };
     sentences.extend(correlations(report));
     sentences.extend(decisions::sentences(report));
@@ -31,13 +31,25 @@ pub fn statement(report: &Report<'_>) -> Vec<String> {
     sentences
 }
 
-/// How the uncertainty was evaluated, as the profile has it said.
-pub(super) fn certified(report: &Report<'_>) -> Option<String> {
-    let profile = profile_named(&report.budget.conventions.profile)?;
-    let sentence = report
-        .language
-        .pick(profile.certified_en, profile.certified_zh);
-    Some(sentence.to_string())
+/// How the uncertainty was evaluated, as the profile has it said, and by which guide where Monte Carlo gave a result.
+pub(super) fn certified(rows: &[Report<'_>]) -> Option<String> {
+    const OF_MONTE_CARLO: &str = "JCGM 101";
+    let first = rows.first()?;
+    let language = first.language;
+    let profile = profile_named(&first.budget.conventions.profile)?;
+    let sentence = language.pick(profile.certified_en, profile.certified_zh);
+    let is_by_trials = |report: &Report<'_>| {
+        let measurands = 0..report.evaluation.results.len();
+        let mut stated = measurands.filter(|measurand| states_result(report, *measurand));
+        stated.any(|m| Figures::new(report, m).reported.basis == Basis::MonteCarlo)
+    };
+    let also = !sentence.contains(OF_MONTE_CARLO) && rows.iter().any(is_by_trials);
+    let also = also.then(|| {
+        say!("Results of the Monte Carlo method are stated in accordance with JCGM 101:2008.")
+            .in_language(language)
+    });
+    let sentences: Vec<String> = std::iter::once(sentence.to_string()).chain(also).collect();
+    Some(sentences.join(language.pick(" ", "")))
 }
 
 /// Whether what was measured is stated as y with its uncertainty: not where nothing was measured, nor where ISO 11929
@@ -443,7 +455,7 @@ pub(super) fn coefficient(r: f64) -> String {
         (libm::log10(1.0 - r.abs()).floor() as i32 - 1).clamp(-6, -3)
     };
     if r.is_finite() {
-        at_place(r, place).print_plain(STYLE)
+        at_place(r, place).print_plain()
     } else {
         NONE.to_string()
     }

@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 use gumption_audit::read::Mapping;
 use gumption_audit::sheet::Unreadable;
 use gumption_audit::{audit, claims, nothing_understood};
-use gumption_core::quantity::Unit;
 use gumption_export::{Format, Page};
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, of_system, say};
@@ -18,7 +17,9 @@ use gumption_format::document::{Attachment, Document};
 use gumption_format::files::{Files, Folder};
 use gumption_format::toml::Step;
 use gumption_gum::budget::{self, Budget, Row};
-use gumption_gum::propagate::{self, Evaluation, EvaluationError, MonteCarloChoice, Options};
+use gumption_gum::propagate::{
+    self, EvaluatedRow, Evaluation, EvaluationError, MonteCarloChoice, Options,
+};
 use gumption_gum::versions::versions;
 use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Reading, Residual};
 use gumption_lab::diagnose::{self, case};
@@ -255,13 +256,6 @@ struct Asked<'a> {
     shown: &'a Shown,
 }
 
-/// An evaluated row of a file.
-struct Evaluated {
-    label: Option<String>,
-    budget: Budget,
-    evaluation: Evaluation,
-}
-
 impl Asked<'_> {
     fn nothing(&self, why: &Said) -> Found {
         Found::Nothing(why.in_language(self.language))
@@ -306,7 +300,10 @@ impl Asked<'_> {
 
     fn evaluate(&self) -> Result<Found, Found> {
         let rows = self.rows(MonteCarloChoice::AsBudget)?;
-        let reports: Vec<Report<'_>> = rows.iter().map(|row| self.report(row)).collect();
+        let reports: Vec<Report<'_>> = rows
+            .iter()
+            .map(|row| Report::of(row, self.language))
+            .collect();
         let mut first = reports.first().map_or(Value::Null, beside);
         let text = self.files.read(self.path).unwrap_or_default();
         first["entries"] = json!(movable::movable(&String::from_utf8_lossy(&text)));
@@ -316,23 +313,14 @@ impl Asked<'_> {
         Ok(Found::Document(Box::new(document), first))
     }
 
-    fn report<'r>(&self, row: &'r Evaluated) -> Report<'r> {
-        Report {
-            budget: &row.budget,
-            evaluation: &row.evaluation,
-            label: row.label.as_deref(),
-            language: self.language,
-        }
-    }
-
     /// The rows of the file as the changes make them, evaluated.
-    fn rows(&self, monte_carlo: MonteCarloChoice) -> Result<Vec<Evaluated>, Found> {
+    fn rows(&self, monte_carlo: MonteCarloChoice) -> Result<Vec<EvaluatedRow>, Found> {
         let loaded = budget::load_from(self.files, self.path, None)?;
         let rows = loaded.rows.into_iter();
         rows.map(|Row { label, budget }| {
             let budget = self.changed(budget);
             let evaluation = self.evaluated(&budget, monte_carlo.clone())?;
-            Ok(Evaluated {
+            Ok(EvaluatedRow {
                 label,
                 budget,
                 evaluation,
@@ -409,7 +397,7 @@ impl Asked<'_> {
             |error: EvaluationError| Found::Nothing(error.said().in_language(self.language));
         let found = alone.map_err(failed)?.zip(together.map_err(failed)?);
         let (alone, together) = found.ok_or_else(|| self.no_target())?;
-        let document = report::requirements(&self.report(row), &alone, &together);
+        let document = report::requirements(&Report::of(row, self.language), &alone, &together);
         Ok(Found::Document(Box::new(document), Value::Null))
     }
 
@@ -538,7 +526,7 @@ fn beside(report: &Report<'_>) -> Value {
     let inputs = budget.inputs.iter().enumerate().map(|(at, input)| {
         let line = first.and_then(|result| result.gum.inputs.get(at));
         json!({
-            "name": input.name, "unit": symbol(&input.unit), "value": input.estimate,
+            "name": input.name, "unit": input.unit.after_number(), "value": input.estimate,
             "u": line.map(|line| line.u), "share": line.map(|line| line.share),
         })
     });
@@ -546,7 +534,7 @@ fn beside(report: &Report<'_>) -> Value {
     let results = outputs.zip(&evaluation.results).map(|(output, result)| {
         let gum = &result.gum;
         json!({
-            "name": output.name, "unit": symbol(&output.unit.difference()),
+            "name": output.name, "unit": output.unit.difference().after_number(),
             "y": gum.estimate, "U": gum.coverage.expanded,
         })
     });
@@ -587,14 +575,6 @@ fn by_line(campaign: &Campaign, found: &Calibration) -> Vec<Value> {
     rows
 }
 
-/// The unit as printed after a number; nothing for the unit one.
-fn symbol(unit: &Unit) -> String {
-    match unit.is_one() {
-        true => String::new(),
-        false => unit.typeset(),
-    }
-}
-
 /// What came of a wish, for the page.
 pub(crate) fn shown(found: &Found, language: Language) -> Value {
     match found {
@@ -610,7 +590,7 @@ pub(crate) fn shown(found: &Found, language: Language) -> Value {
             }
         }
         Found::Refused(rejection) => {
-            let faults = rejection.faults.iter();
+            let faults = rejection.shown().iter();
             let faults: Vec<Value> = faults
                 .map(|fault| placed(fault, &rejection.text, language))
                 .collect();

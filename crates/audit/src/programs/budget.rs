@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use gumption_core::distribution::Entry;
+use gumption_format::toml::writing::{key, quoted};
 
 use crate::claim::Shape;
-use crate::import::{comment, number, quoted};
+use crate::import::{comment, number};
 
 use super::statement::{Equation, Input, Known, Part, Statement};
 
@@ -187,15 +188,6 @@ fn with_unit(unit: &str) -> String {
         String::new()
     } else {
         format!("unit = {}\n", quoted(unit))
-    }
-}
-
-/// TOML wants names with other letters than A to Z in quotes.
-fn key(name: &str) -> String {
-    if name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        name.to_string()
-    } else {
-        quoted(name)
     }
 }
 

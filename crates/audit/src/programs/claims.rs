@@ -105,7 +105,15 @@ fn rows(input: &Input, is_correlated: bool, has_units: bool) -> Vec<Row> {
                     (whole, "") | ("", whole) => whole.to_string(),
                     (whole, part) => format!("{whole}: {part}"),
                 };
-                row(&name, part.stated(&figure))
+                // Limits and steps are stated without theirs.
+                let dof = match part.known {
+                    Known::Limits(..) | Known::Step(_) => part.dof,
+                    _ => None,
+                };
+                Row {
+                    dof: dof.map(|dof| Printed::exact(dof, &dof.to_string())),
+                    ..row(&name, part.stated(&figure))
+                }
             })
             .collect(),
     }

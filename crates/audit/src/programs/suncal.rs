@@ -176,19 +176,24 @@ fn input(node: &Node, remarks: &mut Vec<String>) -> Result<Input, Trouble> {
         },
         ..Input::default()
     };
-    if let Some(readings) = node.get("typea") {
-        let readings: Vec<f64> = readings
+    if let Some(stated) = node.get("typea") {
+        let readings: Vec<f64> = stated
             .list()?
             .iter()
             .map(|reading| number(single(reading)?))
             .collect::<Result<_, _>>()?;
+        if readings.len() < 2 {
+            return Err(stated.trouble(say!(
+                "a standard deviation takes two readings; state what is known otherwise as one of `uncerts`"
+            )));
+        }
         let of = node
             .get("numnewmeas")
             .map(|node| positive(single(node)?))
             .transpose()?;
         let of = of.filter(|of| *of != readings.len() as f64);
         // The estimate is the mean of the readings, also where later ones are expected.
-        input.value = Some(readings.iter().sum::<f64>() / readings.len().max(1) as f64);
+        input.value = Some(readings.iter().sum::<f64>() / readings.len() as f64);
         let (name, dof) = ("repeatability".into(), None);
         let known = Known::Readings(readings, of);
         input.parts.push(Part { name, known, dof });
@@ -253,6 +258,15 @@ fn uncertainty(node: &Node, input: &Input, remarks: &mut Vec<String>) -> Result<
     };
     let has = |key: &str| node.get(key).is_some();
     let plain = |key: &str| positive(required(node, key)?);
+    let probability = || {
+        let piece = required(node, "conf")?;
+        match positive(piece)? {
+            p if p < 1.0 => Ok(p),
+            _ => Err(piece.trouble(say!(
+                "a probability between 0 and 1 is expected here, such as 0.95"
+            ))),
+        }
+    };
     let dof = match node.get("degf").or_else(|| node.get("df")) {
         Some(node) => freedom(single(node)?)?,
         None => None,
@@ -275,10 +289,10 @@ fn uncertainty(node: &Node, input: &Input, remarks: &mut Vec<String>) -> Result<
                     remarks.push(format!(
                         "{of}, {label}: suncal divides U by the factor of the normal distribution, and keeps the degrees of freedom."
                     ));
-                    let p = plain("conf")?;
+                    let p = probability()?;
                     Known::Standard(expanded / normal_two_sided_quantile(p))
                 } else {
-                    Known::Covered(expanded, plain("conf")?)
+                    Known::Covered(expanded, probability()?)
                 }
             } else if has("k") {
                 Known::Expanded(expanded, plain("k")?)

@@ -2,11 +2,11 @@
 
 use crate::printed::{Printed, leading};
 
-use super::words::{figure_after, find, has, signed_pair};
+use super::words::{figure_after, find, has, lowered, signed_pair};
 
 /// `16-bit converter, range ±10 V`: the span divided by 2^N. A unipolar converter spans 0 … FS, a bipolar one twice FS.
 pub fn step(words: &str) -> Option<Printed> {
-    let lower = words.to_lowercase();
+    let lower = lowered(words);
     let bits = bits(&lower)?;
     let span = span(words, &lower)?;
     let step = span.value / libm::exp2(bits);

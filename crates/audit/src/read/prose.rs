@@ -5,7 +5,7 @@ use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
-use super::words::{figure_after, figures_with_units, has};
+use super::words::{figure_after, figures_with_units, has, lowered};
 
 /// Heads of lines that are about the whole.
 const OF_THE_WHOLE: [&str; 12] = [
@@ -166,7 +166,7 @@ pub fn sentence(text: &str, at: Place) -> Option<Row> {
         "标准不确定度",
     ];
     const OF_U: [&str; 2] = ["standard uncertainty", "标准不确定度"];
-    let lower = text.to_lowercase();
+    let lower = lowered(text);
     let marked = lower.contains(['=', '±']) || has(&lower, &MARKS);
     let whole = ["combined", "合成", "result", "结果"];
     if !marked || has(&lower, &whole) || figure_after(text, &["expanded uncertainty is"]).is_some()

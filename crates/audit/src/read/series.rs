@@ -3,7 +3,7 @@
 use gumption_core::quantity::{Decimal, Rounding};
 
 use crate::claim::{Row, Stated};
-use crate::printed::{PLAIN, Printed, leading};
+use crate::printed::{Printed, leading};
 use crate::units;
 
 use super::kind;
@@ -188,7 +188,7 @@ fn computed(readings: &[f64]) -> Option<Printed> {
     let square: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
     let s = libm::sqrt(square / (n - 1.0));
     let shown = Decimal::from_f64(s).round_to_significant(4, Rounding::HalfEven);
-    (s > 0.0).then(|| Printed::exact(s, &shown.print_plain(PLAIN)))
+    (s > 0.0).then(|| Printed::exact(s, &shown.print_plain()))
 }
 
 #[cfg(test)]

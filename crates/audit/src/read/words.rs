@@ -54,6 +54,18 @@ pub fn find(text: &str, key: &str, from: usize) -> Option<usize> {
     None
 }
 
+/// The text in small letters, each in the place of its capital: one whose small letter takes another number of bytes stays.
+pub fn lowered(text: &str) -> String {
+    let small = |c: char| {
+        let mut small = c.to_lowercase();
+        match (small.next(), small.next()) {
+            (Some(one), None) if one.len_utf8() == c.len_utf8() => one,
+            _ => c,
+        }
+    };
+    text.chars().map(small).collect()
+}
+
 fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || ('α'..='ω').contains(&c)
 }
@@ -255,7 +267,7 @@ fn behind_condition(rest: &str) -> &str {
 
 /// The figure in front of one of the keys, with its unit: `0.38 K peak to peak`.
 pub fn figure_before(text: &str, keys: &[&str]) -> Option<Printed> {
-    let lower = text.to_lowercase();
+    let lower = lowered(text);
     let ends = keys.iter().filter_map(|key| find(&lower, key, 0));
     ends.filter_map(|end| {
         let clause = lower[..end].rfind([';', ',']).map_or(0, |at| at + 1);
@@ -284,25 +296,34 @@ pub fn only_figure(text: &str, keys: &[&str]) -> Option<Printed> {
 
 /// A text in which the unit behind a bracket stands with both of its figures: `23 °C ± 1 °C` for `(23 ± 1) °C`.
 pub fn with_units_inside(text: &str) -> String {
-    let Some((front, rest)) = text.split_once('(') else {
-        return text.to_owned();
-    };
-    let known = rest.split_once(')').and_then(|(inside, behind)| {
-        let (value, limit) = inside.split_once('±')?;
-        let behind = behind.trim_start();
-        let end = behind.find([' ', ',', ';', '(', ')', '。', '、']);
-        let (unit, behind) = behind.split_at(end.unwrap_or(behind.len()));
-        let is_bare = |text: &str| text.trim().parse::<f64>().is_ok();
-        let whole = is_bare(value) && is_bare(limit) && crate::units::parse(unit).is_some();
-        whole.then(|| {
-            format!(
-                "{value} {unit} ± {limit} {unit}{}",
-                with_units_inside(behind)
-            )
-        })
-    });
-    let rest = known.unwrap_or_else(|| format!("({}", with_units_inside(rest)));
-    format!("{front}{rest}")
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((front, bracket)) = rest.split_once('(') {
+        out.push_str(front);
+        rest = match unit_inside(bracket) {
+            Some((inside, behind)) => {
+                out.push_str(&inside);
+                behind
+            }
+            None => {
+                out.push('(');
+                bracket
+            }
+        };
+    }
+    out + rest
+}
+
+/// `23 °C ± 1 °C` of `23 ± 1) °C` and what is behind it.
+fn unit_inside(bracket: &str) -> Option<(String, &str)> {
+    let (inside, behind) = bracket.split_once(')')?;
+    let (value, limit) = inside.split_once('±')?;
+    let behind = behind.trim_start();
+    let end = behind.find([' ', ',', ';', '(', ')', '。', '、']);
+    let (unit, behind) = behind.split_at(end.unwrap_or(behind.len()));
+    let is_bare = |text: &str| text.trim().parse::<f64>().is_ok();
+    let whole = is_bare(value) && is_bare(limit) && crate::units::parse(unit).is_some();
+    whole.then(|| (format!("{value} {unit} ± {limit} {unit}"), behind))
 }
 
 /// A text without the figures that cannot be of a quantity in this unit: the designation of an instrument (`5720A`), and

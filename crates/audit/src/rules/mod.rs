@@ -23,7 +23,6 @@ use gumption_fault::{Said, say};
 
 use crate::calculate::{Calculation, Case, Line};
 use crate::claim::Claimed;
-use crate::printed::PLAIN;
 use crate::search::Found;
 use crate::slips::{Change, Weight};
 
@@ -286,5 +285,5 @@ fn shown(x: f64) -> String {
     }
     let rounded = Decimal::from_f64(x).round_to_significant(4, Rounding::HalfEven);
     // Without the zeros that only fill four digits.
-    Decimal::from_f64(rounded.to_f64()).print_plain(PLAIN)
+    Decimal::from_f64(rounded.to_f64()).print_plain()
 }

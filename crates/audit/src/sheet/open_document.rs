@@ -104,11 +104,9 @@ impl Walk {
             "table:table-row" => {
                 self.rows = number("table:number-rows-repeated").unwrap_or(1);
                 self.column = 0;
-                if is_hidden && self.rows <= FARTHEST {
-                    self.sheet
-                        .hidden
-                        .rows
-                        .extend(self.row..self.row.saturating_add(self.rows));
+                if is_hidden {
+                    let end = self.row.saturating_add(self.rows).min(FARTHEST);
+                    self.sheet.hidden.rows.extend(self.row..end);
                 }
             }
             "table:table-cell" | "table:covered-table-cell" => {

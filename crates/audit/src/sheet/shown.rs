@@ -7,7 +7,7 @@
 use gumption_core::quantity::{Decimal, Rounding};
 
 use super::Cell;
-use crate::printed::{PLAIN, clean, leading};
+use crate::printed::{clean, leading};
 
 /// The cell of a number, by what it shows.
 pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {
@@ -19,7 +19,7 @@ pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {
 
 fn called(value: f64, shown: Option<&str>) -> Cell {
     let held = Decimal::from_f64(value);
-    let plain = Cell::new(&held.print_plain(PLAIN));
+    let plain = Cell::new(&held.print_plain());
     let Some(shown) = shown else {
         return plain;
     };
@@ -43,7 +43,7 @@ fn called(value: f64, shown: Option<&str>) -> Cell {
     }
     Cell {
         shown: Some(shown.clone()),
-        ..Cell::new(&format!("{}{behind}", held.print_plain(PLAIN)))
+        ..Cell::new(&format!("{}{behind}", held.print_plain()))
     }
 }
 
@@ -52,7 +52,7 @@ pub(super) fn general(value: f64) -> Option<String> {
     const SHOWN: u8 = 10;
     let held = Decimal::from_f64(value);
     let shown = held.round_to_significant(SHOWN, Rounding::HalfUp);
-    (shown.to_f64() != value).then(|| shown.print_plain(PLAIN))
+    (shown.to_f64() != value).then(|| shown.print_plain())
 }
 
 /// A number in a format of Open XML, as far as that is decimals, percent, powers of ten, and words; `None` for another.
@@ -132,10 +132,7 @@ pub(super) fn formatted(value: f64, format: &str) -> Option<String> {
     let rounded = held
         .shifted(-ten)
         .round_to_place(-optional, Rounding::HalfUp);
-    let mut number = rounded
-        .print_plain(PLAIN)
-        .trim_start_matches('-')
-        .to_string();
+    let mut number = rounded.print_plain().trim_start_matches('-').to_string();
     if let Some((whole, decimals)) = number.clone().split_once('.') {
         let kept = decimals.trim_end_matches('0');
         let wanted = kept.len().max(fixed.unsigned_abs() as usize);

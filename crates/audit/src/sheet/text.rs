@@ -159,12 +159,14 @@ fn is_markdown(line: &str) -> bool {
 pub(super) fn separated(text: &str, separator: char) -> Grid {
     let mut rows = Vec::new();
     let mut open = String::new();
+    let mut quotes = 0;
     for line in text.lines() {
         if !open.is_empty() {
             open.push('\n');
         }
         open.push_str(line);
-        if open.matches('"').count().is_multiple_of(2) {
+        quotes += line.matches('"').count();
+        if quotes.is_multiple_of(2) {
             // What stands below a table of strokes is parted by blanks.
             let parted = if separator == '|' && !open.contains('|') {
                 aligned_fields(&open)

@@ -25,7 +25,7 @@ pub use vocabulary::accepts;
 use gumption_fault::{Said, of_system};
 use gumption_format::files::Files;
 
-use super::files::{CASE, CaseFile};
+use super::files::CASE;
 use super::truth::{Truth, seal};
 
 /// Why a case cannot be graded.
@@ -76,9 +76,4 @@ pub fn sealed_truth(folder: &Path) -> Result<Truth, Refused> {
 /// When the text is no diagnosis.
 pub fn read_answer(text: &str) -> Result<Answer, Refused> {
     serde_json::from_str(text).map_err(|error| Refused::NoDiagnosis(error.to_string()))
-}
-
-/// Whether the seal of the truth stands in the experiment.
-pub fn is_sealed(case: &CaseFile, truth_text: &str) -> bool {
-    case.text.contains(&seal(truth_text))
 }

@@ -23,7 +23,7 @@ pub struct Discrete {
 impl Univariate for Discrete {
     const KIND: Kind = Kind {
         key: "discrete",
-        aliases: &[],
+        aliases: &["two-point", "两点", "两点分布", "离散"],
         name_en: "discrete",
         name_zh: "离散分布",
         parameters: "values x_i with probabilities p_i",

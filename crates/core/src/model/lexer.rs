@@ -86,6 +86,7 @@ pub fn tokens<'t>(text: &'t str, faults: &mut Vec<Fault>) -> Vec<Token<'t>> {
         at: 0,
         // As a rule a token and the blank beside it have four characters.
         tokens: Vec::with_capacity(text.len() / 4 + 1),
+        brackets: 0,
         faults,
     };
     while let Some(next) = lexer.rest().chars().next() {
@@ -99,6 +100,8 @@ struct Lexer<'a, 'f> {
     text: &'a str,
     at: usize,
     tokens: Vec<Token<'a>>,
+    /// Square brackets that are open in the line so far.
+    brackets: i32,
     faults: &'f mut Vec<Fault>,
 }
 
@@ -108,6 +111,12 @@ impl<'a> Lexer<'a, '_> {
     }
 
     fn push(&mut self, kind: Kind<'a>, span: Span) {
+        self.brackets = match kind {
+            Kind::Sign("[") => self.brackets + 1,
+            Kind::Sign("]") => self.brackets - 1,
+            Kind::End => 0,
+            _ => self.brackets,
+        };
         self.at = span.end;
         self.tokens.push(Token { kind, span });
     }
@@ -323,19 +332,14 @@ impl<'a> Lexer<'a, '_> {
         }
     }
 
-    /// Whether a square bracket is open in the line so far.
-    fn is_in_brackets(&self) -> bool {
-        let before = &self.text[..self.at];
-        let line = before.rsplit('\n').next().unwrap_or_default();
-        line.matches('[').count() > line.matches(']').count()
-    }
-
     fn unknown(&mut self, c: char) {
         let span = self.at..self.at + c.len_utf8();
+        let mut end = span.end;
         let help = match c {
             '°' | '%' | '‰' | 'µ' | '℃' | '℉' => {
                 let goes_on = |next: &char| *next == c || next.is_alphabetic();
                 let unit: String = self.rest().chars().take_while(goes_on).collect();
+                end = self.at + unit.len();
                 let before = self.text[..self.at].trim_end();
                 let digits = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
                 let number = match &before[digits.len()..] {
@@ -349,7 +353,7 @@ impl<'a> Lexer<'a, '_> {
             '"' | '`' | '’' | '‘' => {
                 say!("a unit stands between single quotes: `25 'mm'`")
             }
-            ':' if self.is_in_brackets() => {
+            ':' if self.brackets > 0 => {
                 say!("there are no ranges: name the elements one by one, `[x[1], x[2], x[3]]`")
             }
             ':' => say!("write `=` to define a quantity"),
@@ -368,13 +372,13 @@ impl<'a> Lexer<'a, '_> {
         self.faults.push(
             Fault::new(
                 faults::CHARACTER,
-                span.clone(),
+                span,
                 say!("`{c}` has no meaning in a model"),
             )
             .label(say!("not part of the model language"))
             .help(help),
         );
-        self.at = span.end;
+        self.at = end;
     }
 }
 

@@ -40,6 +40,7 @@ pub fn outline(text: &str, units: &UnitTable) -> Result<Outline, Vec<Fault>> {
     let statements = reading.statements;
     let mut own: BTreeSet<String> = BTreeSet::new();
     let mut needs: Vec<(String, Span)> = Vec::new();
+    let mut needed: BTreeSet<String> = BTreeSet::new();
     for statement in &statements {
         let (expr, parameters): (&Expr, &[Name]) = match statement {
             Statement::Assign { value, .. } | Statement::Value(value) => (value, &[]),
@@ -48,13 +49,13 @@ pub fn outline(text: &str, units: &UnitTable) -> Result<Outline, Vec<Fault>> {
             } => (body, parameters),
         };
         let bound: Vec<String> = parameters.iter().map(|p| p.text.clone()).collect();
+        let unknowns: BTreeSet<String> = unknowns(expr).into_iter().collect();
         for (name, span) in values(expr) {
             let known = own.contains(&name)
                 || bound.contains(&name)
-                || unknowns(expr).contains(&name)
-                || catalogue::is_pi(&name)
-                || needs.iter().any(|(other, _)| *other == name);
-            if !known {
+                || unknowns.contains(&name)
+                || catalogue::is_pi(&name);
+            if !known && needed.insert(name.clone()) {
                 needs.push((name, span));
             }
         }

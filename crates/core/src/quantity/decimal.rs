@@ -116,7 +116,8 @@ impl Decimal {
             .map(|b| b - b'0')
             .collect();
         let place = exponent.checked_sub(fraction.len() as i32)?;
-        (place.abs() <= FARTHEST_PLACE).then(|| Decimal::finite(negative, digits, place))
+        (place.unsigned_abs() <= FARTHEST_PLACE.unsigned_abs())
+            .then(|| Decimal::finite(negative, digits, place))
     }
 
     fn finite(negative: bool, mut digits: Vec<u8>, place: i32) -> Decimal {
@@ -387,6 +388,7 @@ mod tests {
             "x",
             "1e",
             "1e99999999",
+            "1e-2147483648",
             "1×11^3",
             "--1",
             "1e5e5",

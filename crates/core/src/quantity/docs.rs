@@ -68,7 +68,7 @@ which you state them.
 
 - Upper and lower case matter: `mV` and `MV`, `s` (second) and `S` (siemens).
 - A product behind a solidus, as in `W/m·K`, is refused because it is read in two ways.
-- A power needs its sign: `m^2`, not `m2`. A product needs its sign too: `N·m`, not `Nm`.
+- A digit behind a unit is its power: `m2` and `N/mm2` are read as `m^2` and `N/mm^2`. A product needs its sign: `N·m`, not `Nm`.
 - `µ` may be either of the two characters that look like this, or `u`. `℃`, the ohm sign, and the
   signs of a Chinese keyboard such as `（`, `％`, `㎡` and `㎃` are read as well.
 - A quantity of dimension one has the unit `1`. An empty unit is an error.

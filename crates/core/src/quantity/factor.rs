@@ -61,7 +61,7 @@ impl Factor {
         let places = i32::try_from(fraction.len()).ok()?;
         let ten = exponent
             .checked_sub(places)
-            .filter(|ten| ten.abs() <= 400)?;
+            .filter(|ten| ten.unsigned_abs() <= 400)?;
         if number == 0 {
             return None;
         }
@@ -326,6 +326,7 @@ mod tests {
         assert_eq!(decimal("1000"), Factor::power_of_ten(3));
         assert_eq!(Factor::from_decimal("0"), None);
         assert_eq!(Factor::from_decimal("1e99999"), None);
+        assert_eq!(Factor::from_decimal("1e-2147483648"), None);
         assert_eq!(Factor::from_decimal(""), None);
     }
 

@@ -29,7 +29,7 @@ pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
 pub use factor::Factor;
 pub use faults::UnitError;
-pub use print::{Grouping, PowerStyle, Style};
+pub use print::PowerStyle;
 pub use rounded::{Rounded, RoundingRule, space_before};
 pub use show::{show, show_apart};
 pub use table::{DefinitionError, UnitTable};

@@ -1,4 +1,4 @@
-//! Printing of decimal numbers: grouping of digits, powers of ten.
+//! Printing of decimal numbers: plain, or with a power of ten.
 
 use std::fmt;
 
@@ -13,25 +13,6 @@ pub(super) fn needed_power(leading: Option<i32>, last: Option<i32>) -> Option<i3
     too_many_zeros.then_some(leading)
 }
 
-/// Typography of numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Style {
-    /// Digits in groups of three.
-    pub grouping: Grouping,
-    /// Powers of ten.
-    pub power: PowerStyle,
-}
-
-/// Whether digits stand in groups of three (SI Brochure 5.4.4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Grouping {
-    /// `100.02147`.
-    #[default]
-    None,
-    /// `100.021 47`, with a narrow space that no line breaks at; four digits stay together.
-    ThinSpace,
-}
-
 /// How a power of ten is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PowerStyle {
@@ -44,16 +25,10 @@ pub enum PowerStyle {
     E,
 }
 
-impl Style {
-    /// For documents: digits in groups, superscripts.
-    pub const DOCUMENT: Style = Style {
-        grouping: Grouping::ThinSpace,
-        power: PowerStyle::Superscript,
-    };
-
+impl PowerStyle {
     /// A power of ten behind a number.
     pub fn power(self, ten: i32) -> String {
-        match self.power {
+        match self {
             PowerStyle::Superscript => format!(
                 "×10{}",
                 ten.to_string().chars().map(raised).collect::<String>()
@@ -62,38 +37,19 @@ impl Style {
             PowerStyle::E => format!("e{ten}"),
         }
     }
-
-    /// Digits in groups of three, the first of `first` digits.
-    fn grouped(self, digits: &str, first: usize) -> String {
-        if self.grouping == Grouping::None || digits.len() <= 4 {
-            return digits.to_owned();
-        }
-        let mut result = String::new();
-        for (i, digit) in digits.chars().enumerate() {
-            if i > 0 && i % 3 == first % 3 {
-                result.push('\u{202f}');
-            }
-            result.push(digit);
-        }
-        result
-    }
 }
 
 impl Decimal {
     /// As printed in `style`: plain, or with a power of ten where that is easier to read.
-    pub fn print(&self, style: Style) -> String {
+    pub fn print(&self, style: PowerStyle) -> String {
         match needed_power(self.leading_place(), self.place()) {
-            Some(ten) => format!(
-                "{}{}",
-                self.shifted(-ten).print_plain(style),
-                style.power(ten)
-            ),
-            None => self.print_plain(style),
+            Some(ten) => format!("{}{}", self.shifted(-ten).print_plain(), style.power(ten)),
+            None => self.print_plain(),
         }
     }
 
     /// As printed without a power of ten, however many zeros that takes.
-    pub fn print_plain(&self, style: Style) -> String {
+    pub fn print_plain(&self) -> String {
         let sign = if self.is_negative() { "-" } else { "" };
         let Some(place) = self.place() else {
             let infinite = self.to_f64().is_infinite();
@@ -112,10 +68,9 @@ impl Decimal {
             text.insert_str(0, &"0".repeat(decimals + 1 - text.len()));
         }
         let (whole, fraction) = text.split_at(text.len() - decimals);
-        let whole = style.grouped(whole, whole.len() % 3);
         match fraction {
             "" => format!("{sign}{whole}"),
-            _ => format!("{sign}{whole}.{}", style.grouped(fraction, 3)),
+            _ => format!("{sign}{whole}.{fraction}"),
         }
     }
 }
@@ -123,7 +78,7 @@ impl Decimal {
 impl fmt::Display for Decimal {
     /// As [`print`](Decimal::print) in the default style.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&self.print(Style::default()))
+        f.pad(&self.print(PowerStyle::default()))
     }
 }
 
@@ -151,25 +106,10 @@ mod tests {
     #[test]
     fn styles() {
         let d = Decimal::from_f64(1.5e-6);
-        let styled = |power| {
-            d.print(Style {
-                power,
-                ..Style::default()
-            })
-        };
+        let styled = |power| d.print(power);
         assert_eq!(styled(PowerStyle::Superscript), "1.5×10⁻⁶");
         assert_eq!(styled(PowerStyle::Caret), "1.5×10^-6");
         assert_eq!(styled(PowerStyle::E), "1.5e-6");
-        let grouped = |text: &str| {
-            Decimal::from_text(text)
-                .unwrap()
-                .print(Style::DOCUMENT)
-                .replace('\u{202f}', " ")
-        };
-        assert_eq!(grouped("100.02147"), "100.021 47");
-        assert_eq!(grouped("1234567.1234567"), "1 234 567.123 456 7");
-        assert_eq!(grouped("12345"), "12 345");
-        assert_eq!(grouped("1234.5678"), "1234.5678");
     }
 
     proptest! {
@@ -177,7 +117,7 @@ mod tests {
         fn what_is_printed_can_be_read(x in proptest::num::f64::ANY, caret in proptest::bool::ANY) {
             let power = if caret { PowerStyle::Caret } else { PowerStyle::Superscript };
             let d = Decimal::from_f64(x);
-            let back = Decimal::from_text(&d.print(Style { grouping: Grouping::ThinSpace, power }));
+            let back = Decimal::from_text(&d.print(power));
             prop_assert_eq!(back.map(|d| d.to_f64().to_bits()), Some(if x.is_nan() { f64::NAN } else { x + 0.0 }.to_bits()));
         }
     }

@@ -412,7 +412,7 @@ impl Parser<'_> {
         }) = self.peek().cloned()
         {
             self.next += 1;
-            let exponent = exponent.filter(|e| e.abs() <= LARGEST_EXPONENT);
+            let exponent = exponent.filter(|e| e.unsigned_abs() <= LARGEST_EXPONENT.unsigned_abs());
             let exponent = exponent.ok_or_else(|| self.too_large(span.clone()))?;
             return Ok(Some((exponent * STEPS, span)));
         }
@@ -556,6 +556,14 @@ mod tests {
             error.message.to_string(),
             error.help.unwrap_or_default().to_string(),
         )
+    }
+
+    #[test]
+    fn exponents_have_an_end() {
+        for text in ["m⁶¹", "m^-61", "m⁻²¹⁴⁷⁴⁸³⁶⁴⁸"] {
+            let (_, message, _) = error(text);
+            assert!(message.contains("exponent"), "{text}: {message}");
+        }
     }
 
     #[test]

@@ -5,16 +5,19 @@
 //! |---|---|
 //! | `readings` | mean, standard deviation, autocorrelation, pooling |
 //! | `anova` | readings in groups |
+//! | `median` | the middle of numbers |
 //! | `nested` | readings in subgroups of groups |
 //! | `outliers` | tests of the most outlying reading |
 
 mod anova;
+mod median;
 mod nested;
 mod outliers;
 mod readings;
 
 pub use crate::dd::Dd;
 pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
+pub use median::median;
 pub use nested::{Nested, Verdicts};
 pub use outliers::{OutlierTest, Suspect};
 pub use readings::{Serial, Series, pooled, relative_scatter_of_s};

@@ -85,11 +85,6 @@ impl Series {
     /// expectation ρ_k = (n − F) r_k/(n − k) + F/n. Put into F, this is linear in F and solved for it. The sum ends with the
     /// first lag that is four times the correlation time F/2 (Sokal 1997: of correlation that fades with it, e⁻⁴ is left
     /// out), or with a quarter of n. F is from 1, since alternating readings are not trusted more than independent ones, to n.
-    pub fn serial_factor(&self) -> f64 {
-        self.serial().factor
-    }
-
-    /// That factor, with the degrees of freedom that it leaves.
     pub fn serial(&self) -> Serial {
         const WINDOW: f64 = 4.0;
         let n = self.deviations.len() as f64;
@@ -121,7 +116,7 @@ impl Series {
 /// What serial correlation does to the mean of n readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Serial {
-    /// F: by what it multiplies the variance of the mean ([`Series::serial_factor`]).
+    /// F: by what it multiplies the variance of the mean ([`Series::serial`]).
     pub factor: f64,
     /// Degrees of freedom of the standard uncertainty of the mean.
     pub dof: f64,
@@ -231,7 +226,7 @@ mod tests {
     #[test]
     fn alternating_readings_are_not_deflated() {
         let data = series((0..40).map(|i| if i % 2 == 0 { "0" } else { "1" }));
-        assert_eq!(data.serial_factor(), 1.0);
+        assert_eq!(data.serial().factor, 1.0);
     }
 
     fn noise() -> impl FnMut() -> f64 {
@@ -254,7 +249,7 @@ mod tests {
                 [reading, reading]
             })
             .collect();
-        let factor = Series::new(&readings).serial_factor();
+        let factor = Series::new(&readings).serial().factor;
         assert!((factor - 2.0).abs() < 0.1, "{factor}");
     }
 
@@ -270,7 +265,7 @@ mod tests {
                     Dd::from(x)
                 })
                 .collect();
-            let factor = Series::new(&readings).serial_factor();
+            let factor = Series::new(&readings).serial().factor;
             let theory = (1.0 + phi) / (1.0 - phi);
             assert!((factor - theory).abs() < tolerance, "{factor} for {theory}");
         }

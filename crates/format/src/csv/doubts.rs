@@ -43,18 +43,6 @@ impl Sign {
     }
 }
 
-/// Whether the sign in a number may mark thousands: three digits behind it, one to three before it and not 0.
-pub(super) fn may_mark_thousands(field: &str) -> bool {
-    let unsigned = field.trim_start_matches(['+', '-']);
-    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    unsigned
-        .split_once(['.', ','])
-        .is_some_and(|(whole, behind)| {
-            let lengths = (1..=3).contains(&whole.len()) && behind.len() == 3;
-            lengths && digits(whole) && digits(behind) && !whole.starts_with('0')
-        })
-}
-
 /// Columns with decimal points beside columns with decimal commas: one of them is read wrongly, as both also mark
 /// thousands. Each with its text in the first line, and its place.
 pub(super) fn two_signs(
@@ -118,16 +106,6 @@ pub(super) fn not_a(column: &str, line: usize, field: &str, expected: &Said) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_may_mark_thousands() {
-        for text in ["1.234", "-12,500", "+999.000"] {
-            assert!(may_mark_thousands(text), "{text}");
-        }
-        for text in ["0.123", "1.5", "1234.567", "1.2345", "1.5e3", "12", "1.23e"] {
-            assert!(!may_mark_thousands(text), "{text}");
-        }
-    }
 
     #[test]
     fn signs_are_those_of_numbers() {

@@ -1,5 +1,6 @@
 //! Numbers and times in the fields of a recording.
 
+use gumption_core::calendar::Day;
 use gumption_fault::{Said, say};
 
 use super::sheet::Sheet;
@@ -188,17 +189,13 @@ fn days_of(date: &str) -> Option<i64> {
         [year, month, day] => (year, month, day),
         _ => return None,
     };
-    let year = digits(year, 4, 9999)?;
-    let (month, day) = (digits(month, 2, 12)?, digits(day, 2, 31)?);
-    if month == 0 || day == 0 {
-        return None;
-    }
-    // Years that begin in March have their leap day at the end.
-    let year = if month <= 2 { year - 1 } else { year };
-    let months = (month + 9) % 12;
-    let of_year = (153 * months + 2) / 5 + day - 1;
-    let leap_days = year / 4 - year / 100 + year / 400;
-    Some(365 * year + leap_days + of_year - 719_468)
+    let number = |text, count, largest| digits(text, count, largest)?.try_into().ok();
+    let day = Day::of(
+        number(year, 4, 9999)?,
+        number(month, 2, 12)?,
+        number(day, 2, 31)?,
+    )?;
+    Some(day.since_1970())
 }
 
 /// The clock without its zone, and how many seconds the zone is ahead of UTC.
@@ -257,16 +254,16 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
     (field.contains('−') && like(&minus)).then(|| say!("write {minus}, with the hyphen as minus"))
 }
 
-/// Whether the comma of a number may stand between thousands: three digits behind it, and one to three before it that do not
-/// begin with 0.
-fn may_mark_thousands(field: &str) -> bool {
-    let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-    field.split_once(',').is_some_and(|(before, behind)| {
-        let before = before.trim_start_matches(['+', '-']);
-        let is_group =
-            (1..=3).contains(&before.len()) && !before.starts_with('0') && is_digits(before);
-        is_group && behind.len() == 3 && is_digits(behind)
-    })
+/// Whether the sign in a number may mark thousands: three digits behind it, one to three before it and not 0.
+pub(super) fn may_mark_thousands(field: &str) -> bool {
+    let unsigned = field.trim_start_matches(['+', '-']);
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    unsigned
+        .split_once(['.', ','])
+        .is_some_and(|(whole, behind)| {
+            let lengths = (1..=3).contains(&whole.len()) && behind.len() == 3;
+            lengths && digits(whole) && digits(behind) && !whole.starts_with('0')
+        })
 }
 
 /// How a field becomes a number.
@@ -345,6 +342,16 @@ mod tests {
     }
 
     #[test]
+    fn what_may_mark_thousands() {
+        for text in ["1.234", "-12,500", "+999.000"] {
+            assert!(may_mark_thousands(text), "{text}");
+        }
+        for text in ["0.123", "1.5", "1234.567", "1.2345", "1.5e3", "12", "1.23e"] {
+            assert!(!may_mark_thousands(text), "{text}");
+        }
+    }
+
+    #[test]
     fn instants_count_from_1970() {
         assert_eq!(seconds("1970-01-01T00:00:00Z"), Some(0.0));
         assert_eq!(seconds("2000-03-01 00:00"), Some(951_868_800.0));
@@ -366,6 +373,8 @@ mod tests {
             "03/13/2026 08:46:58 AM",
             "03.13.2026 08:46:58",
             "03.03.26",
+            "2026-02-30",
+            "31.04.2026",
             "09-00",
             "2026-02",
             "9",

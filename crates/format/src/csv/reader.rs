@@ -6,10 +6,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
-use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
+use super::doubts::{Sign, mend_of_overload, not_a, same_name, two_signs};
 use super::encoding::{NoText, Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
-use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
+use super::field::{Field, Instant, is_like_a_time, is_overload, may_mark_thousands, mend};
 use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};

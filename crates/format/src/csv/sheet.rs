@@ -154,20 +154,22 @@ impl<'a> Sheet<'a> {
     /// The place of a field of a row in the text, without white space around it; the end of the row
     /// for a field that it lacks.
     pub fn place(&self, row: &Row<'_>, column: usize) -> Range<usize> {
-        let mut quoted = false;
         let mut at = row.start;
         let mut number = 0;
         let bytes = self.text.as_bytes();
-        let end = |from: usize, quoted: &mut bool| {
+        let end = |from: usize| {
             let rest = bytes.get(from..).unwrap_or_default();
+            // As the reader has it: inside a field a quotation mark is a character as others are.
+            let is_quoted = rest.first() == Some(&b'"');
+            let mut is_open = false;
             let length = rest.iter().position(|byte| {
-                *quoted ^= *byte == b'"';
-                !*quoted && (*byte == self.separator || *byte == b'\n' || *byte == b'\r')
+                is_open ^= is_quoted && *byte == b'"';
+                !is_open && (*byte == self.separator || *byte == b'\n' || *byte == b'\r')
             });
             from + length.unwrap_or(rest.len())
         };
         loop {
-            let stop = end(at, &mut quoted);
+            let stop = end(at);
             let more = bytes.get(stop) == Some(&self.separator);
             if number == column || !more {
                 let field = &self.text[at..stop];
@@ -518,6 +520,15 @@ mod tests {
         assert_eq!(rows("a;b,c\n1;2")[0].1, ["1", "2"]);
         assert_eq!(rows("a\tb\n1\t\n")[0].1, ["1", ""]);
         assert_eq!(rows("a\n1\n").len(), 1);
+    }
+
+    #[test]
+    fn a_mark_inside_a_field_opens_nothing() {
+        let text = "a,b,c\n1,5\" pipe,abc\n\"x, y\",\"5\"\"\",d\n";
+        let sheet = Sheet::new(text).expect("a header");
+        let mut last = Vec::new();
+        let count = sheet.visit(|row| last.push(&text[sheet.place(row, 2)]));
+        assert_eq!((count, last), (Ok(2), vec!["abc", "d"]));
     }
 
     /// Lines without quotes are split here, rows with quotes by the crate `csv`: both as that crate does it alone.

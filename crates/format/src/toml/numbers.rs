@@ -4,7 +4,7 @@ use gumption_fault::{Said, say};
 
 /// Whether a value without quotes is numbers with operators between them.
 pub(super) fn is_calculation(text: &str) -> bool {
-    let text = text.trim();
+    let text = text.trim().replace("sqrt", "").replace('√', "");
     let sign = |c: char| c.is_ascii_digit() || "+-*/^(). eE".contains(c);
     let operator = text
         .trim_start_matches(['+', '-'])
@@ -15,7 +15,20 @@ pub(super) fn is_calculation(text: &str) -> bool {
 /// What a quotient of two numbers is.
 pub(super) fn quotient(text: &str) -> Option<f64> {
     let (dividend, divisor) = text.split_once('/')?;
-    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let root = |text: &str| {
+        let behind = text
+            .strip_prefix('√')
+            .or_else(|| text.strip_prefix("sqrt"))?;
+        let inside = behind
+            .strip_prefix('(')
+            .and_then(|text| text.strip_suffix(')'));
+        let number: f64 = inside.unwrap_or(behind).trim().parse().ok()?;
+        Some(number.sqrt())
+    };
+    let number = |text: &str| {
+        let text = text.trim();
+        text.parse().ok().or_else(|| root(text))
+    };
     Some(number(dividend)? / number(divisor)?).filter(|result| result.is_finite())
 }
 
@@ -92,28 +105,29 @@ pub(super) fn without_comma(number: &str, quotes: &str) -> Said {
     }
 }
 
-/// Two numbers with nothing but blanks between them.
-pub(super) fn two_numbers(text: &str) -> Option<(&str, &str)> {
-    let (first, second) = text.split_once([' ', '\t'])?;
-    let second = second.trim_start();
-    let is_number = |text: &str| {
+/// Numbers with nothing but blanks between them.
+pub(super) fn several_numbers(text: &str) -> Option<Vec<&str>> {
+    let is_number = |text: &&str| {
         text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
             && text.parse::<f64>().is_ok()
     };
-    (is_number(first) && is_number(second)).then_some((first, second))
+    let words: Vec<&str> = text.split_whitespace().collect();
+    (words.len() > 1 && words.iter().all(is_number)).then_some(words)
 }
 
 /// Number and unit of an amount that was written without quotes.
 pub(super) fn amount(text: &str) -> Option<(&str, &str)> {
-    let end = text
-        .char_indices()
-        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
-        .map(|(at, c)| at + c.len_utf8())
-        .last()?;
+    let of_number = |c: char| c.is_ascii_digit() || "+-._eE".contains(c);
+    let most = text.len() - text.trim_start_matches(of_number).len();
+    let ends = (1..=most).rev();
+    let mut ends =
+        ends.filter(|end| text[..*end].ends_with(|c: char| c.is_ascii_digit() || c == '.'));
+    let end = ends.find(|end| text[..*end].parse::<f64>().is_ok())?;
     let (number, unit) = text.split_at(end);
     let unit = unit.trim();
-    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
-    plausible.then_some((number, unit))
+    let is_unit =
+        !unit.is_empty() && !unit.contains(' ') && !unit.starts_with(['/', '*', '^', '√']);
+    is_unit.then_some((number, unit))
 }
 
 /// How an amount is written that stands without quotes.

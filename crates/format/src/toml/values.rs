@@ -7,7 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::numbers::{
-    of_concise, of_plus_minus, parted_by_plus_minus, without_comma, without_sign,
+    of_concise, of_plus_minus, parted_by_plus_minus, quotient, without_comma, without_sign,
 };
 use super::strings::StringMap;
 use super::table::{FromToml, Raw, Reader};
@@ -372,7 +372,9 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
         || goes_on_in_a_smaller_unit(rest)
         || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))
             && spelled(body).is_some()
-        || divided.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        || divided.is_some_and(|rest| {
+            rest.starts_with(|c: char| c.is_ascii_digit() || c == '√') || rest.starts_with("sqrt")
+        });
     (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
 }
 
@@ -472,9 +474,10 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
             "write the one amount that the sum gives here; parts of an accuracy specification are specification = {{ reading = \"…\", fixed = \"…\" }}, other reasons for doubt entries of `components`"
         ))
     } else if text.contains(['/', '*', '×', '·', '⋅', '^', '(']) {
-        fault.help(say!(
-            "write the number that it gives; formulas stand in a `model`"
-        ))
+        fault.help(match quotient(text) {
+            Some(result) => say!("write {result}; formulas stand in a `model`"),
+            None => say!("write the number that it gives; formulas stand in a `model`"),
+        })
     } else {
         fault.help(say!(
             "write for example \"25 µV\", or a plain number in the unit of the input"

@@ -185,7 +185,6 @@ impl Pattern {
             && found.remarks.is_empty() == budget.remarks.is_empty()
             && found.constants == budget.constants
             && found.following == budget.following
-            && found.remarks.is_empty() == budget.remarks.is_empty()
             && found.conformity == budget.conformity
             && found.detection == budget.detection
     }

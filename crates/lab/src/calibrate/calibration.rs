@@ -301,7 +301,7 @@ fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
         .observed
         .iter()
         .fold(0.0_f64, |most, value| most.max(value.abs()));
-    let known = known_u(stack, true);
+    let known = known_u(stack);
     let of = |response: usize| {
         let rows = stack.rows.iter().zip(&known);
         let own = rows.filter_map(|(row, u)| match row {

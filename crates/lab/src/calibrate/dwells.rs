@@ -7,6 +7,7 @@ use crate::recording::{
     Stillness, by_label, by_steps, by_stillness,
 };
 use gumption_core::quantity::Unit;
+use gumption_core::statistics::median;
 
 /// What tells dwells apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,9 +84,10 @@ impl Dwelling {
         let interval = match time {
             None => 1.0,
             Some(times) => {
-                let mut intervals: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
-                intervals.sort_by(f64::total_cmp);
-                intervals.get(intervals.len() / 2).copied().unwrap_or(1.0)
+                // Of rows with the same time stamp none is the next one.
+                let intervals = times.windows(2).map(|t| t[1] - t[0]);
+                let interval = median(intervals.filter(|interval| *interval > 0.0).collect());
+                if interval.is_nan() { 1.0 } else { interval }
             }
         };
         let settling = (settle / interval).ceil();
@@ -118,15 +120,15 @@ impl Points {
         for column in &recording.columns {
             match &column.data {
                 Data::Numbers(samples) => {
-                    points
-                        .readings
-                        .extend(readings(recording, column, &cut.kept));
-                    points.findings.extend(spikes(recording, column, &cut.kept));
                     let averages: Vec<Option<Average>> = cut
                         .kept
                         .iter()
                         .map(|dwell| Average::of(&samples[dwell.rows.clone()]).ok())
                         .collect();
+                    points
+                        .readings
+                        .extend(readings(recording, column, &cut.kept, &averages));
+                    points.findings.extend(spikes(recording, column, &cut.kept));
                     points.columns.push(PointColumn {
                         name: column.role.clone(),
                         unit: column.unit.clone().unwrap_or_else(Unit::one),
@@ -198,11 +200,16 @@ fn merged(recording: &Recording, dwelling: &Dwelling, kept: &[Dwell]) -> Vec<Fin
 const MOST_READINGS: usize = 2000;
 
 /// The readings of a column that lie farthest from the averages of their dwells, in the order of the file.
-fn readings(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Vec<Reading> {
+fn readings(
+    recording: &Recording,
+    column: &Column,
+    dwells: &[Dwell],
+    averages: &[Option<Average>],
+) -> Vec<Reading> {
     let samples = recording.numbers(&column.role).unwrap_or_default();
     let mut found: Vec<(usize, f64)> = Vec::new();
-    for dwell in dwells {
-        let Ok(average) = Average::of(&samples[dwell.rows.clone()]) else {
+    for (dwell, average) in dwells.iter().zip(averages) {
+        let Some(average) = average else {
             continue;
         };
         let deviations = dwell.rows.clone().map(|row| {
@@ -240,8 +247,8 @@ fn spikes(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Option<Fi
     let mut found: Option<Finding> = None;
     for dwell in dwells {
         let own = &samples[dwell.rows.clone()];
-        let usual = median(own.iter().copied())?;
-        let scatter = median(own.iter().map(|x| (x - usual).abs()))? / 0.6745;
+        let usual = median(own.to_vec());
+        let scatter = median(own.iter().map(|x| (x - usual).abs()).collect()) / 0.6745;
         let far = |x: f64| (x - usual).abs() > FAR * scatter;
         let rows: Vec<usize> = dwell
             .rows
@@ -268,13 +275,6 @@ fn spikes(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Option<Fi
         finding.count += rows.len();
     }
     found
-}
-
-/// The median of the numbers that are there.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| !value.is_nan()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 fn name_of(recording: &Recording, dwell: &Dwell) -> Words {

@@ -175,9 +175,25 @@ fn replicates(
     columns: &[Stated<String>],
     outputs: &[(String, Unit)],
 ) -> Option<Vec<Scatter>> {
-    let mut keys: Vec<Vec<String>> = vec![Vec::new(); points.len()];
+    // Rows without a value agree with none.
+    let mut keys: Vec<Option<Vec<String>>> = vec![Some(Vec::new()); points.len()];
     for column in columns {
-        let number = |row: usize| Some(points.column(&column.value)?.values.get(row)?.to_string());
+        // Zero has one sign.
+        let number = |row: usize| {
+            points
+                .column(&column.value)?
+                .values
+                .get(row)
+                .map(|x| x + 0.0)
+        };
+        let number = |row: usize| {
+            let number = number(row)?;
+            Some(if number.is_nan() {
+                String::new()
+            } else {
+                number.to_string()
+            })
+        };
         let label = |row: usize| Some(points.labels(&column.value)?.text(row).to_owned());
         for (row, key) in keys.iter_mut().enumerate() {
             let Some(own) = label(row).or_else(|| number(row)) else {
@@ -192,12 +208,17 @@ fn replicates(
                     None => fault.help(say!("declare it below [columns]")),
                 });
             };
-            key.push(own);
+            match own.is_empty() {
+                true => *key = None,
+                false => key.iter_mut().for_each(|key| key.push(own.clone())),
+            }
         }
     }
     let mut rows: BTreeMap<&[String], Vec<usize>> = BTreeMap::new();
     for (row, key) in keys.iter().enumerate() {
-        rows.entry(key).or_default().push(row);
+        if let Some(key) = key {
+            rows.entry(key).or_default().push(row);
+        }
     }
     let scatter = |(name, _): &(String, Unit)| {
         let values = &points.column(name)?.values;

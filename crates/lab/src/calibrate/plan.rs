@@ -5,7 +5,7 @@ use super::campaign::Campaign;
 use super::causes::causes;
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability};
-use super::scatter::Scatters;
+use super::scatter::{Scatters, stated_u};
 use super::stack::{Readings, Row, Stack};
 use super::trouble::Trouble;
 
@@ -79,26 +79,13 @@ pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
 
 /// What each row would scatter by: its stated errors, if all have them, else all alike.
 fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
-    let campaign = stack.campaign;
-    let own = |response: usize, point: usize| -> f64 {
-        let crate::experiment::Observed::Column(name) = &campaign.experiment.observed[response]
-        else {
-            return 0.0;
-        };
-        let each = campaign
-            .experiment
-            .doubts
-            .iter()
-            .map(|doubt| doubt.of_reading(name, &campaign.points, point).powi(2));
-        each.sum::<f64>().sqrt()
+    let parameters = &stack.campaign.experiment.parameters;
+    let of_row = |(row, stated): (&Row, f64)| match row {
+        Row::Reading { .. } => stated,
+        Row::Prior { parameter } => parameters[*parameter].known.map_or(1.0, |p| p.u),
     };
-    let of_row = |row: &Row| match row {
-        Row::Reading { response, point } => own(*response, *point),
-        Row::Prior { parameter } => campaign.experiment.parameters[*parameter]
-            .known
-            .map_or(1.0, |p| p.u),
-    };
-    let u: Vec<f64> = stack.rows.iter().map(of_row).collect();
+    let rows = stack.rows.iter().zip(stated_u(stack));
+    let u: Vec<f64> = rows.map(of_row).collect();
     if u.iter().all(|u| *u > 0.0) {
         u
     } else {

@@ -75,7 +75,9 @@ fn own(total: f64, explained: f64, dof: f64) -> (f64, f64, Part) {
     /// Of the intervals that are compared.
     const PROBABILITY: f64 = 0.95;
     let rest = (total - explained).max(0.0);
-    let rest_dof = dof * (rest / total).powi(2);
+    // Of residuals that are zero nothing is explained.
+    let share = if total > 0.0 { rest / total } else { 1.0 };
+    let rest_dof = dof * share.powi(2);
     let width = |sum: f64, dof: f64| sum.sqrt() * student_t_two_sided_quantile(PROBABILITY, dof);
     let is_known = explained == 0.0 || rest > 0.0 && width(rest, rest_dof) <= width(total, dof);
     match is_known || dof == 0.0 {
@@ -162,7 +164,7 @@ impl Campaign {
 /// Weights by readings without uncertainty.
 pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
     let campaign = stack.campaign;
-    let own = known_u(stack, true);
+    let own = known_u(stack);
     let mut u = Vec::with_capacity(stack.rows.len());
     for (index, row) in stack.rows.iter().enumerate() {
         u.push(match row {
@@ -185,30 +187,46 @@ pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
     Ok(u)
 }
 
-/// Standard uncertainty of each reading by itself: stated errors of each reading, and its samples if
-/// wanted. Zero where nothing is known.
-pub(super) fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
-    let campaign = stack.campaign;
-    let of_row = |row: &Row| {
-        let Row::Reading { point, response } = row else {
-            return 0.0;
-        };
-        let Observed::Column(name) = &campaign.experiment.observed[*response] else {
-            return 0.0;
-        };
-        let stated: f64 = campaign
-            .experiment
-            .doubts
-            .iter()
-            .map(|doubt| doubt.of_reading(name, &campaign.points, *point).powi(2))
-            .sum();
-        let column = campaign.points.column(name);
-        let sampled = column
-            .and_then(|column| column.averages.get(*point)?.as_ref())
-            .filter(|_| samples);
-        (stated + sampled.map_or(0.0, |average| average.u * average.u)).sqrt()
-    };
+/// Standard uncertainty of each reading by itself from stated errors; zero where nothing is stated.
+pub(super) fn stated_u(stack: &Stack<'_>) -> Vec<f64> {
+    let of_row = |row: &Row| stated_variance(stack, row).sqrt();
     stack.rows.iter().map(of_row).collect()
+}
+
+/// The same with what its samples show; zero where nothing is known.
+pub(super) fn known_u(stack: &Stack<'_>) -> Vec<f64> {
+    let of_row = |row: &Row| (stated_variance(stack, row) + sampled_variance(stack, row)).sqrt();
+    stack.rows.iter().map(of_row).collect()
+}
+
+fn stated_variance(stack: &Stack<'_>, row: &Row) -> f64 {
+    let campaign = stack.campaign;
+    let Some((name, point)) = reading(stack, row) else {
+        return 0.0;
+    };
+    let doubts = campaign.experiment.doubts.iter();
+    doubts
+        .map(|doubt| doubt.of_reading(name, &campaign.points, point).powi(2))
+        .sum()
+}
+
+fn sampled_variance(stack: &Stack<'_>, row: &Row) -> f64 {
+    let average = reading(stack, row).and_then(|(name, point)| {
+        let column = stack.campaign.points.column(name)?;
+        column.averages.get(point)?.as_ref()
+    });
+    average.map_or(0.0, |average| average.u * average.u)
+}
+
+/// The column and the point of a row that was read.
+fn reading<'s>(stack: &Stack<'s>, row: &Row) -> Option<(&'s str, usize)> {
+    let Row::Reading { point, response } = row else {
+        return None;
+    };
+    match &stack.campaign.experiment.observed[*response] {
+        Observed::Column(name) => Some((name, *point)),
+        _ => None,
+    }
 }
 
 impl Scatters {
@@ -230,7 +248,7 @@ impl Scatters {
         }
         let ones = vec![1.0; stack.rows.len()];
         let jacobian = stack.jacobian(&solution.parameters, &ones);
-        let (known, stated) = (known_u(stack, true), known_u(stack, false));
+        let (known, stated) = (known_u(stack), stated_u(stack));
         let parameters = campaign.experiment.parameters.len();
         // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
         // show of it explains nothing of them.

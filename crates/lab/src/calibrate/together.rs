@@ -55,7 +55,9 @@ impl Points {
 fn uneven(groups: &[(Vec<&str>, Vec<usize>)], columns: &[&str]) -> Vec<Finding> {
     let mut counts: Vec<usize> = groups.iter().map(|(_, rows)| rows.len()).collect();
     counts.sort_unstable();
-    let usual = counts[counts.len() / 2];
+    let Some(usual) = counts.get(counts.len() / 2).copied() else {
+        return Vec::new();
+    };
     let odd = groups.iter().filter(|(_, rows)| rows.len() != usual);
     odd.map(|(labels, rows)| Finding {
         problem: Problem::Uneven {

@@ -14,6 +14,15 @@ pub enum Failure {
     Fit(NoFit),
     /// The statistics refused.
     Refused(Refusal),
+    /// More memory than noise that is correlated between all rows may take.
+    TooCorrelated {
+        /// Rows of the recording.
+        rows: usize,
+        /// Bytes that it would take.
+        bytes: u64,
+        /// Bytes that it may take.
+        most: u64,
+    },
     /// More memory than a diagnosis may take.
     TooLarge {
         /// Rows of the recording.
@@ -35,7 +44,7 @@ impl Failure {
             }
             Failure::Fit(NoFit::NoMinimum | NoFit::Undetermined(_))
             | Failure::Refused(Refusal::Dependent { .. }) => Some(NOT_FITTED),
-            Failure::TooLarge { .. } => Some(TOO_LARGE),
+            Failure::TooLarge { .. } | Failure::TooCorrelated { .. } => Some(TOO_LARGE),
             Failure::Refused(_) => None,
         }
     }
@@ -58,7 +67,8 @@ impl Display for Failure {
         match self {
             Failure::Fit(why) => Display::fmt(why, f),
             Failure::Refused(why) => Display::fmt(why, f),
-            Failure::TooLarge { rows, bytes, most } => {
+            Failure::TooLarge { rows, bytes, most }
+            | Failure::TooCorrelated { rows, bytes, most } => {
                 write!(f, "{rows} rows take {bytes} bytes, of at most {most}")
             }
         }

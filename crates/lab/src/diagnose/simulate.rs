@@ -6,10 +6,11 @@ use nalgebra::DVector;
 
 use super::case::{Blocks, Case, Column, Data, Observed};
 use super::design::Design;
-use super::fit::{Fit, NoFit};
+use super::failure::Failure;
+use super::fit::Fit;
 use super::noise::Claimed;
-use super::settled;
 use super::{chance, confirm};
+use super::{settled, size};
 use crate::recording::Heading;
 use gumption_core::quantity::UnitTable;
 use gumption_core::special::normal_two_sided_quantile;
@@ -93,8 +94,9 @@ pub struct Simulation {
 /// shows. Each output is followed by the model and the ends of the band that covers it with 95 %.
 ///
 /// # Errors
-/// When the model cannot be fitted.
-pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
+/// When the model cannot be fitted, or correlated noise takes too much memory.
+pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, Failure> {
+    size::draws_fit_into_memory(case)?;
     let mut by_row = case.clone();
     by_row.averaging.blocks = Blocks::Rows;
     by_row.averaging.settle = 0;

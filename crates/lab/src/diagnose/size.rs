@@ -1,6 +1,6 @@
 //! What a diagnosis takes of the machine, before it takes it.
 
-use super::case::Case;
+use super::case::{Case, NoiseClaim};
 use super::coarse;
 use super::design::Design;
 use super::failure::Failure;
@@ -55,5 +55,28 @@ pub(super) fn fits_into_memory(case: &Case) -> Result<(), Failure> {
             bytes,
             most: MOST_BYTES,
         }),
+    }
+}
+
+/// # Errors
+/// The errors of all rows are drawn together, and take more memory than a diagnosis may.
+pub(super) fn draws_fit_into_memory(case: &Case) -> Result<(), Failure> {
+    /// The covariance, the correlation and its root.
+    const MATRICES: u64 = 3;
+    let is_correlated = match &case.noise {
+        NoiseClaim::Stated { walk, .. } => walk.iter().any(|walk| *walk > 0.0),
+        NoiseClaim::AtRest { readings, .. } => readings.iter().all(|rest| rest.times.is_some()),
+        NoiseClaim::Estimated | NoiseClaim::PerRow { .. } | NoiseClaim::Replicates(_) => false,
+    };
+    let observations = (case.responses.len() * case.rows) as u64;
+    let values = MATRICES.saturating_mul(observations.saturating_mul(observations));
+    let bytes = values.saturating_mul(size_of::<f64>() as u64);
+    match is_correlated && bytes > MOST_BYTES {
+        true => Err(Failure::TooCorrelated {
+            rows: case.rows,
+            bytes,
+            most: MOST_BYTES,
+        }),
+        false => Ok(()),
     }
 }

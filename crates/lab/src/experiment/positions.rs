@@ -82,14 +82,13 @@ pub(crate) fn given(
         );
     };
     let mut rows: Vec<&[Stated<f64>]> = Vec::new();
-    let mut unknown: Vec<&str> = Vec::new();
+    let mut unknown: HashSet<&str> = HashSet::new();
     for place in 0..labels.of_row.len() {
         let label = labels.text(place);
         match at.value.entries.iter().find(|(name, _)| name == label) {
             Some((_, values)) => rows.push(&values.value),
-            None if unknown.contains(&label) => {}
+            None if !unknown.insert(label) => {}
             None => {
-                unknown.push(label);
                 let fault = unknown_position(label, &row(place), table, stated);
                 checker.faults.push(fault);
             }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::power_law::{PowerLaw, equivalent_dof};
 use gumption_core::special::{chi_squared_quantile, chi_squared_upper_quantile};
+use gumption_core::statistics::median;
 
 /// The fewest readings that have an Allan deviation at more than two averaging times.
 const FEWEST: usize = 16;
@@ -136,11 +137,6 @@ pub fn regular_interval(times: &[f64]) -> Result<f64, Unsuitable> {
         }),
         None => Ok(mean),
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 impl Allan {

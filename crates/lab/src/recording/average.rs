@@ -26,7 +26,7 @@ pub struct Average {
     /// Autocorrelation coefficient of successive readings; 0 where all are equal.
     pub autocorrelation: f64,
     /// The number of independent readings that are worth as much: n over
-    /// 1 + 2 Σ (1 − k/n) ρ_k ([`Series::serial_factor`]).
+    /// 1 + 2 Σ (1 − k/n) ρ_k ([`Series::serial`]).
     pub effective: f64,
     /// Standard uncertainty of the mean (GUM 4.2.3, with serial correlation after 4.2.7): √(σ²/effective)
     /// with σ² = Σ(x − x̄)²/(n − n/effective). 0 where all readings are equal: their resolution is

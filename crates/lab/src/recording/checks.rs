@@ -413,8 +413,10 @@ impl Stretches {
 
     fn that_come_back(&self, recording: &Recording) -> Vec<Finding> {
         let mut seen: Vec<(&str, Vec<usize>)> = Vec::new();
+        let mut places: HashMap<&str, usize> = HashMap::new();
         for (label, row) in self.labels.iter().zip(&self.begins) {
-            match seen.iter_mut().find(|(other, _)| other == label) {
+            let place = *places.entry(label).or_insert(seen.len());
+            match seen.get_mut(place) {
                 Some((_, rows)) => rows.push(*row),
                 None => seen.push((label, vec![*row])),
             }

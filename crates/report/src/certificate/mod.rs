@@ -201,7 +201,7 @@ fn region(report: &Report<'_>) -> Option<Region> {
     let one = Notation::of(&Unit::one())?;
     Some(Region {
         columns: columns.collect::<Option<_>>()?,
-        k: at_place(k, -3).print_plain(crate::number::STYLE),
+        k: at_place(k, -3).print_plain(),
         p: one.plain(report.coverage_probability()),
     })
 }

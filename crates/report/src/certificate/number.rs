@@ -1,6 +1,6 @@
 //! Numbers and units in the notation of the D-SI.
 
-use gumption_core::quantity::{Conversion, Decimal, PowerStyle, Rounding, Style, Unit};
+use gumption_core::quantity::{Conversion, Decimal, PowerStyle, Rounding, Unit};
 
 /// How numbers of a unit are written: in the unit itself, or in the coherent SI unit where the D-SI has no name for it.
 #[derive(Debug, Clone)]
@@ -14,10 +14,7 @@ pub(super) struct Notation {
 }
 
 /// For other programs.
-const MACHINE: Style = Style {
-    grouping: gumption_core::quantity::Grouping::None,
-    power: PowerStyle::E,
-};
+const MACHINE: PowerStyle = PowerStyle::E;
 
 impl Notation {
     /// `None` where the D-SI has no name for any part, which no dimension brings about.
@@ -59,7 +56,7 @@ impl Notation {
 
     /// Without a power of ten, as factors and probabilities have to be.
     pub fn plain(&self, number: f64) -> String {
-        Decimal::from_f64(number).print_plain(MACHINE)
+        Decimal::from_f64(number).print_plain()
     }
 
     fn printed(&self, printed: &str, converted: impl Fn(f64) -> String) -> String {

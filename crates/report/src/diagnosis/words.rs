@@ -120,6 +120,11 @@ pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
             let (needed, most) = (gib(*bytes), gib(*most));
             say!("A diagnosis of {rows} rows takes about {needed} GiB of memory as they are averaged now, and at most {most} GiB are taken. Average them in fewer blocks: [recording] average = 400 or dwells = [\"position\"]; or take a part of the recording.").in_language(l)
         }
+        Failure::TooCorrelated { rows, bytes, most } => {
+            let gib = |bytes: u64| bytes.div_ceil(1 << 30);
+            let (needed, most) = (gib(*bytes), gib(*most));
+            say!("Noise that is correlated between {rows} rows takes about {needed} GiB of memory, and at most {most} GiB are taken. Simulate a part of the recording, or state the noise without `walk` and `at_rest`.").in_language(l)
+        }
         Failure::Refused(Refusal::Cancelled) => l.pick("stopped".to_owned(), "已中断".to_owned()),
         Failure::Refused(other) => other.to_string(),
     }

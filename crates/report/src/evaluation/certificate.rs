@@ -34,7 +34,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
     if sentences.is_empty() {
         return Vec::new();
     }
-    sentences.extend(statement::certified(first));
+    sentences.extend(statement::certified(rows));
     blocks.push(Block::Statement(sentences));
     blocks
 }

@@ -196,27 +196,14 @@ impl Builder {
             let at = |id: Id| moved[id as usize];
             let op = match *op {
                 Op::Input(place) => Op::Input(places[place as usize] as u32),
-                Op::Constant(_) => *op,
                 Op::Unknown(_) => {
                     self.unknowns += 1;
                     Op::Unknown(self.unknowns)
                 }
-                Op::Unary(row, a) => Op::Unary(row, at(a)),
                 Op::Binary(row, a, b) if matches!(row.rule, Rule::Add | Rule::Mul) => {
                     Op::Binary(row, at(a).min(at(b)), at(a).max(at(b)))
                 }
-                Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
-                Op::Power(a, c) => Op::Power(at(a), c),
-                Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
-                Op::Solve(n) => {
-                    let equation = &other.implicit[n as usize];
-                    self.graph.implicit.push(Implicit {
-                        start: at(equation.start),
-                        parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
-                        residual: Arc::clone(&equation.residual),
-                    });
-                    Op::Solve(self.graph.implicit.len() as u32 - 1)
-                }
+                op => other.moved(op, at, &mut self.graph),
             };
             let id = self.push(op);
             if let Some(label) = other.labels.get(&(i as Id)) {
@@ -224,6 +211,15 @@ impl Builder {
             }
             moved[i] = id;
         }
+        let tables = other
+            .tables
+            .iter()
+            .filter(|table| needed[table.result as usize]);
+        self.graph.tables.extend(tables.map(|table| Table {
+            result: moved[table.result as usize],
+            x: moved[table.x as usize],
+            ..table.clone()
+        }));
         moved[output as usize]
     }
 

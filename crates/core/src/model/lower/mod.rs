@@ -26,6 +26,9 @@ const MAX_DEPTH: usize = 160;
 /// Operations and expressions visited, with vectors and user functions written out.
 const MAX_WORK: usize = 3_000_000;
 
+/// Faults of one budget that are kept, as each new one is compared with them.
+const MOST_FAULTS: usize = 1000;
+
 /// What an expression gives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Value {
@@ -182,7 +185,7 @@ impl<'r> Lowering<'r> {
                 && other.related == fault.related
                 && (other.span == fault.span || !fault.related.is_empty())
         };
-        if !self.faults.iter().any(is_same) {
+        if self.faults.len() < MOST_FAULTS && !self.faults.iter().any(is_same) {
             self.faults.push((place, fault));
         }
     }

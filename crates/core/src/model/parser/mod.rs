@@ -32,9 +32,10 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
     }
     let mut found = Vec::new();
     let tokens = tokens(text, &mut found);
-    let (mut unread, others): (Vec<Fault>, _) = found
+    let (unread, others): (Vec<Fault>, _) = found
         .into_iter()
         .partition(|fault| is_left_out(fault, text));
+    let mut unread = unread.into_iter().peekable();
     faults.extend(others);
     let mut parser = Parser {
         text,
@@ -59,12 +60,10 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
         }
         // What a character without meaning leaves behind is not judged: the first of a statement is its fault.
         let end = parser.tokens[parser.at].span.start;
-        let in_it = unread
-            .iter()
-            .take_while(|fault| fault.span.start < end)
-            .count();
-        if let Some(first) = unread.drain(..in_it).next() {
+        let mut in_it = || unread.next_if(|fault| fault.span.start < end);
+        if let Some(first) = in_it() {
             read = Err(Box::new(first));
+            while in_it().is_some() {}
         }
         match read {
             Ok(statement) => reading.statements.push(statement),

@@ -10,7 +10,7 @@ use crate::spelled::spelled;
 use crate::toml::faults::TOML_SYNTAX;
 use crate::toml::numbers::{
     amount, concise, is_calculation, of_concise, of_plus_minus, parted_by_plus_minus, quoted,
-    quotient, two_numbers, without_comma, without_sign,
+    quotient, several_numbers, without_comma, without_sign,
 };
 
 /// Words that people try, and the key that they mean.
@@ -66,9 +66,11 @@ impl<'a> Stop<'a> {
             .or_else(|| self.number())
             .or_else(|| self.key(synonyms))
             .or_else(|| self.text())
+            .or_else(|| self.header())
             .or_else(|| self.open_list())
             .or_else(|| self.no_equals_sign())
             .or_else(|| self.decimal_point())
+            .or_else(|| self.leading_zero())
             .or_else(|| self.several())
             .unwrap_or_else(|| {
                 let message = of_toml(self.message);
@@ -116,7 +118,7 @@ impl<'a> Stop<'a> {
 
     /// A value without quotes that is a number to people.
     fn number(&self) -> Option<Fault> {
-        if !self.says(NO_QUOTES) && !self.says("invalid float") {
+        if !self.says(NO_QUOTES) && !self.says("invalid float") || self.is_word() {
             return None;
         }
         let marked = self.marked;
@@ -169,10 +171,11 @@ impl<'a> Stop<'a> {
             let fault = self.refused(message, say!("expected `#`"));
             return Some(fault.help(say!("write {value}  # {remark}")));
         }
-        if let Some((first, second)) = two_numbers(marked) {
-            let message = say!("`{marked}` is two numbers");
+        if let Some(numbers) = several_numbers(marked) {
+            let message = say!("`{marked}` is several numbers");
             let fault = self.refused(message, say!("expected a comma between them"));
-            return Some(fault.help(say!("write {first}, {second} in a list")));
+            let list = numbers.join(", ");
+            return Some(fault.help(say!("write {list} in a list", list = list)));
         }
         let (number, unit) = amount(marked)?;
         let message = say!("`{marked}` needs quotes");
@@ -188,10 +191,22 @@ impl<'a> Stop<'a> {
         })
     }
 
+    /// A word that begins as `true`, `false`, `nan` or `inf` do, of which the parser takes it to be one.
+    fn is_word(&self) -> bool {
+        let taken = self.says("invalid boolean") || self.says("invalid float");
+        taken && self.marked.starts_with(char::is_alphabetic)
+    }
+
     /// A text without its quotes, or with a backslash between them.
     fn text(&self) -> Option<Fault> {
-        if self.says(NO_QUOTES) {
-            let marked = self.marked;
+        let marked = self.marked;
+        let lower = marked.to_ascii_lowercase();
+        if self.is_word() && ["true", "false", "nan", "inf"].contains(&lower.as_str()) {
+            let message = say!("`{marked}` is not how it is written in TOML");
+            let fault = self.refused(message, say!("expected small letters"));
+            return Some(fault.help(say!("write {word}", word = lower)));
+        }
+        if self.says(NO_QUOTES) || self.is_word() {
             let message = say!("`{marked}` is no number, and a text needs quotes");
             let fault = self.refused(message, say!("expected a number or a text in quotes"));
             let marked = marked.replace('"', "'");
@@ -210,6 +225,31 @@ impl<'a> Stop<'a> {
                 "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
             ))
         })
+    }
+
+    /// A header whose name has other signs than TOML takes without quotes.
+    fn header(&self) -> Option<Fault> {
+        let line = line_of(self.span.start, self.text);
+        let name = self.text[line.clone()]
+            .split('#')
+            .next()
+            .unwrap_or_default()
+            .trim();
+        let name = name.strip_prefix('[')?.strip_suffix(']')?;
+        if !self.says("unclosed table") || name.contains(['"', '\'', '[', ']']) {
+            return None;
+        }
+        let kept = name.chars().filter(|c| !"{}()".contains(*c));
+        let letter = |c: char| if c.is_whitespace() { '_' } else { c };
+        let plain: String = kept.map(letter).collect();
+        let message = say!("`[{name}]` is no header of a table");
+        let start = line.start + self.text[line.clone()].find('[')?;
+        let fault = Fault::new(TOML_SYNTAX, start..start + name.len() + 2, message);
+        let fault = fault.label(say!("a name has no blanks and no brackets"));
+        Some(fault.help(say!(
+            "write [{plain}], and call it so in the model",
+            plain = plain
+        )))
     }
 
     fn open_list(&self) -> Option<Fault> {
@@ -252,6 +292,26 @@ impl<'a> Stop<'a> {
             let message = say!("a number needs digits before and behind its decimal point");
             self.refused(message, say!("a digit is missing")).help(help)
         })
+    }
+
+    /// The decimals of a number with a comma in a list, `[10,01, 10,02]`, or a zero too much.
+    fn leading_zero(&self) -> Option<Fault> {
+        if !self.says("leading zero") {
+            return None;
+        }
+        let digits = |c: char| c.is_ascii_digit();
+        let before = self.text[..self.span.start].strip_suffix([',', '，']);
+        let whole = before.map_or("", |before| {
+            &before[before.trim_end_matches(digits).len()..]
+        });
+        let behind = &self.text[self.span.start..];
+        let decimals = &behind[..behind.len() - behind.trim_start_matches(digits).len()];
+        let help = match whole {
+            "" => say!("leave out the zero in front"),
+            whole => say!("write a decimal point: {whole}.{decimals}"),
+        };
+        let message = say!("a number does not begin with a zero and another digit");
+        Some(self.refused(message, say!("expected a number")).help(help))
     }
 
     /// Values side by side with nothing between them.
@@ -337,6 +397,11 @@ fn of_second_header(line: &str, before: &str) -> Said {
         false if name.contains('.') => say!(
             "a table has one header: put these keys below the first {single}, or give this one another name"
         ),
+        false if ["correlation", "conformity"].contains(&name) => {
+            say!(
+                "of several tables each has the header {listed}: write so for the first {single}, too"
+            )
+        }
         false => say!("a table has one header: put these keys below the first {single}"),
     }
 }

@@ -109,6 +109,7 @@ pub fn leaves_the_rest(error: &toml::de::Error) -> bool {
     [
         "string values must be quoted",
         UNQUOTED,
+        "invalid boolean",
         "invalid float",
         "string, expected",
         "duplicate key",
@@ -120,7 +121,8 @@ pub fn leaves_the_rest(error: &toml::de::Error) -> bool {
 /// The faults that no line with a syntax error has part in. What a broken line would have used seems
 /// `unused`; such faults are left out.
 pub fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str, unused: Code) -> Vec<Fault> {
-    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
+    let ends: Vec<usize> = text.match_indices('\n').map(|(end, _)| end).collect();
+    let line = |at: usize| ends.partition_point(|end| *end < at);
     let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
     let touches = |fault: &Fault| {
         let lines = line(fault.span.start)..=line(fault.span.end);
@@ -171,6 +173,19 @@ mod tests {
             ("value = .5", "", "0.5"),
             ("readings = [1.0, 1.1 1.2]", "1.1 1.2", "1.1, 1.2"),
             ("value = 1 200.5", "1 200.5", "write 1200.5"),
+            ("readings = [2.0 2.1 2.2]", "2.0 2.1 2.2", "2.0, 2.1, 2.2"),
+            ("readings = [10,01, 10,02]", "0", "10.01"),
+            ("distribution = triangular", "triangular", "\"triangular\""),
+            ("title = Torque", "Torque", "\"Torque\""),
+            ("relative = True", "True", "write true"),
+            ("u = 1e-2V", "1e-2V", "\"1e-2 V\""),
+            ("u = 0.06/√4", "0.06/√4", "write 0.03;"),
+            (
+                "[input.标准 电压]",
+                "[input.标准 电压]",
+                "[input.标准_电压]",
+            ),
+            ("[input.V_{s}]", "[input.V_{s}]", "[input.V_s]"),
         ] {
             let (found, mend) = first(text);
             assert_eq!(found, marked, "{text}");

@@ -26,7 +26,9 @@ fn share_of(unit: &str) -> Option<Said> {
     let of = of.to_lowercase().replace('.', "");
     Some(match of.split_whitespace().next()? {
         "fs" | "fso" | "span" | "range" | "满量程" => {
-            say!("a share of a range is specification = {{ range = \"… {share}\", span = … }}")
+            say!(
+                "a share of a range is specification = {{ range = \"… {share}\", span = … }}, in [conformity] mpe = \"… {share}\" with mpe_of = …"
+            )
         }
         "rdg" | "reading" | "rd" | "读数" => {
             say!(
@@ -275,7 +277,7 @@ impl Checker<'_> {
                 )
                 .label(say!("has a unit"))
                 .help(say!(
-                    "write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"
+                    "write a fraction (\"0.1 %\", \"50 ppm\"); an amount with a unit stands without `relative`, and in a specification as `fixed`"
                 )),
             );
         }
@@ -392,13 +394,13 @@ fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) 
 fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> Said {
     let relative = match context.value() {
         Some(value) => say!(
-            "for {} of the value {} write {} with relative = true beside it (of a certificate, behind its braces)",
+            "for {} of the value {} write {} with relative = true beside it (of a certificate, not between its braces)",
             show(fraction),
             show(value),
             show(fraction)
         ),
         None => say!(
-            "for a fraction of the value write {} with relative = true beside it (of a certificate, behind its braces)",
+            "for a fraction of the value write {} with relative = true beside it (of a certificate, not between its braces)",
             show(fraction)
         ),
     };

@@ -10,7 +10,7 @@ use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VEC
 use crate::budget::tables::SourceTable;
 use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest, say};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
 use smol_str::SmolStr;
 
@@ -183,6 +183,41 @@ impl Checker<'_> {
         )
     }
 
+    /// How a source acts on an input in its unit.
+    fn of_sensitivity(
+        &self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        source: &Unit,
+        target: &Unit,
+    ) -> Said {
+        let wanted = target.quotient(&source.difference()).symbol.clone();
+        let Some(stated) = &entry.table.sensitivity else {
+            return match source.is_one() {
+                true => say!(
+                    "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {wanted}\""
+                ),
+                false => say!("add the sensitivity: sensitivity = \"… {wanted}\""),
+            };
+        };
+        // Behind `1.15 µm/K` stands the unit that the source should have.
+        let units = |text: &str| self.names.units.parse(text).ok();
+        let missing = stated.value.unit.as_ref().and_then(|(text, _)| {
+            let (_, of_source) = text.rsplit_once('/')?;
+            let acts_in = units(text)?.product(&units(of_source)?.difference());
+            acts_in.conversion_to(target).map(|_| of_source.to_owned())
+        });
+        match (missing, &entry.table.source) {
+            (Some(missing), Some(name)) if source.is_one() => {
+                say!("add unit = \"{missing}\" to [source.{}]", name.value)
+            }
+            _ => say!(
+                "it is the change of {} per unit of the source: sensitivity = \"… {wanted}\"",
+                context.owner
+            ),
+        }
+    }
+
     /// Change of the input per unit of the source.
     fn coefficient(
         &mut self,
@@ -233,20 +268,7 @@ impl Checker<'_> {
                     ),
                 )
                 .label(say!("units do not fit"))
-                .help({
-                    let sensitivity = target.quotient(&source.difference()).symbol.clone();
-                    match source.is_one() && entry.table.sensitivity.is_none() {
-                        true => say!(
-                            "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {sensitivity}\""
-                        ),
-                        false if let Some(stated) = &entry.table.sensitivity => say!(
-                            "it is the change of {} per unit of the source, in {sensitivity}: sensitivity = \"{} {sensitivity}\"",
-                            context.owner,
-                            stated.value.number
-                        ),
-                        false => say!("add the sensitivity: sensitivity = \"… {sensitivity}\""),
-                    }
-                }),
+                .help(self.of_sensitivity(entry, context, source, &target)),
             ),
         }
     }

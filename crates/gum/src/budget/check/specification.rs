@@ -2,7 +2,7 @@
 
 use super::amounts::Share;
 use super::checker::Checker;
-use super::draft::Context;
+use super::draft::{Context, show};
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
 use crate::budget::tables::SpecificationTable;
 use gumption_fault::{Fault, say};
@@ -125,9 +125,10 @@ impl Checker<'_> {
                 )
                 .label(say!("a unit is missing"))
                 .help(say!(
-                    "write {key} = \"{} %\" or \"{} ppm\"",
+                    "write {key} = \"{} %\" or \"{} ppm\"; of a fraction, {key} = \"{} %\"",
                     amount.value.number,
-                    amount.value.number
+                    amount.value.number,
+                    show(100.0 * amount.value.number)
                 )),
             );
         }

@@ -50,7 +50,15 @@ fn of_this_table(key: &str, table: &str, known: &[&'static str]) -> Option<Said>
         "certificate" => of_certificate(&word).or_else(|| of_unit(&word)),
         "[input]" => of_reason(key, &word, known).or_else(|| of_knowledge(&word, known)),
         "a component" => of_knowledge(&word, known).or_else(|| of_unit(&word)),
+        "[source]" if key == "value" => Some(say!(
+            "a source is an error about zero: its value, where it has one, is a correction of the inputs on which it acts"
+        )),
         "[source]" => of_reason(key, &word, known),
+        "[constant]" if ["u", "half_width", "certificate", "components", "U", "k"].contains(&key) => {
+            Some(say!(
+                "a constant is exact; what is uncertain stands below [input]"
+            ))
+        }
         "[measurand]" => of_measurand(key, &word).or_else(|| an_input(key, known)),
         "[conformity]" => of_conformity(&word).or_else(|| of_unit(&word)),
         "specification" | "pooled" => of_unit(&word),
@@ -87,7 +95,7 @@ fn of_certificate(word: &str) -> Option<Said> {
             "limits ±a are no expanded uncertainty: half_width = … in the place of `certificate`"
         )),
         "u_rel" | "urel" | "u_r" | "rel_u" | "relative" | "relative_u" => Some(say!(
-            "a relative expanded uncertainty has its unit: U = \"0.1 %\", or \"50 ppm\"; of a quantity that is itself a ratio write certificate = {{ U = 0.001, k = 2 }}, relative = true"
+            "a relative expanded uncertainty has its unit: U = \"0.1 %\", or \"50 ppm\"; of a quantity that is itself a ratio write certificate = {{ U = 0.001, k = 2 }} and relative = true beside it"
         )),
         _ => None,
     }
@@ -304,6 +312,11 @@ fn has_limits(name: &str) -> bool {
 
 /// What stands beside a table and not in it.
 fn beside(key: &str, table: &str) -> Option<Said> {
+    if (key, table) == ("k", "specification") {
+        return Some(say!(
+            "the parts of a specification are limits: where it states a level of confidence, p = 0.95 stands beside it; a U with its k is a certificate"
+        ));
+    }
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
     beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))

@@ -22,6 +22,6 @@ pub static HINTS: Hints = Hints {
     no_table,
     wrong_type,
     list_of_amounts: say!(
-        "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`"
+        "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`, with u = […] for one u of each"
     ),
 };

@@ -33,6 +33,14 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
                 "two names are wanted: between = [\"{number}\", \"…\"]"
             ));
         }
+        ("readings", _) if number.to_lowercase().ends_with(".csv") => {
+            return Some(say!(
+                "the column of a file is readings = {{ file = \"{number}\", column = \"…\" }}"
+            ));
+        }
+        ("limits", _) if let Some((lower, upper)) = both_ends(number) => {
+            return Some(say!("two limits are limits = [{lower}, {upper}]"));
+        }
         ("readings" | "values", false) if let Some(list) = listed(number) => return Some(list),
         _ => {}
     }
@@ -58,6 +66,15 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
         )),
         _ => None,
     }
+}
+
+/// Both ends of a text such as `1.9 .. 2.1`.
+fn both_ends(text: &str) -> Option<(&str, &str)> {
+    let mut signs = ["...", "..", "…", "~", "～", " to ", "至"].into_iter();
+    let (lower, upper) = signs.find_map(|sign| text.split_once(sign))?;
+    let (lower, upper) = (lower.trim(), upper.trim());
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
+    (is_number(lower) && is_number(upper)).then_some((lower, upper))
 }
 
 /// A list of numbers for a text that has them, and may have a unit behind the last one.
@@ -113,8 +130,9 @@ pub fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
     }
 }
 
-/// The keys of a specification as data sheets write it: `0.5 % of reading + 0.1 % of range + 2 digits`.
+/// The keys of a specification as data sheets write it: `0.5 % of reading + 0.1 % of range + 2 digits`, `0.015 % + 0.004 %`.
 fn parts_of(specification: &str) -> String {
+    let mut is_first_share = true;
     let parts = specification.trim_start_matches(['±', '(']).split('+');
     let keys = parts.map(|part| {
         let part = part.trim().trim_end_matches(')').trim();
@@ -123,7 +141,10 @@ fn parts_of(specification: &str) -> String {
         let share = part.find('%').map(|end| &part[..=end]);
         let number = part.split_whitespace().next().unwrap_or("…");
         match share {
-            Some(share) if says(&["rang", "fs", "f.s", "full", "span", "量程", "满"]) => {
+            Some(share)
+                if says(&["rang", "fs", "f.s", "full", "span", "量程", "满"])
+                    || !std::mem::take(&mut is_first_share) =>
+            {
                 format!("range = \"{share}\", span = \"…\"")
             }
             Some(share) => format!("reading = \"{share}\""),

@@ -12,7 +12,6 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use crate::budget::chain::{Ensemble, Identity, Member, Part};
 use crate::budget::{Certificate, Component, Evaluation, Law, Owner};
@@ -46,6 +45,12 @@ pub struct Document {
     pub correlated: Vec<GroupEntry>,
     /// What must be known of the files.
     pub remarks: Vec<RemarkEntry>,
+}
+
+/// What tells such a file from others, which are not kept.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<String>,
 }
 
 /// A file that states components.
@@ -223,14 +228,15 @@ impl SavedResults {
     /// # Errors
     /// What is wrong with the file, in words.
     pub fn read(bytes: &[u8], place: &dyn Fn(&str) -> PathBuf) -> Result<Self, Said> {
-        let value: Value = serde_json::from_slice(bytes).map_err(|error| {
-            say!(
-                "it is not well-formed JSON: {}",
-                of_json(&error.to_string())
-            )
-        })?;
-        let format = value.get("format").and_then(Value::as_str);
-        match format {
+        let head = match serde_json::from_slice(bytes) {
+            Ok(head) => head,
+            Err(error) if error.is_data() => Head { format: None },
+            Err(error) => {
+                let why = of_json(&error.to_string());
+                return Err(say!("it is not well-formed JSON: {}", why));
+            }
+        };
+        match head.format.as_deref() {
             Some(RESULT_FORMAT) => {}
             Some(other) => {
                 return Err(say!("it is of the format {other}, not {RESULT_FORMAT}"));
@@ -238,7 +244,7 @@ impl SavedResults {
             None => return Err(say!("it does not say that it is {RESULT_FORMAT}")),
         }
         let document: Document =
-            serde_json::from_value(value).map_err(|error| of_json(&error.to_string()))?;
+            serde_json::from_slice(bytes).map_err(|error| of_json(&error.to_string()))?;
         document.resolved(place)
     }
 }

@@ -7,7 +7,7 @@ use super::places::{COMPONENTS, resolved};
 use crate::budget::check::states_estimate;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use crate::budget::tables::FileTable;
-use gumption_fault::{Fault, nearest, say};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::{Raw, Stated, Table};
 
 /// What a column sets.
@@ -85,6 +85,9 @@ pub(in crate::budget) fn set_twice(
     twice.collect()
 }
 
+/// The parts of a path beyond which it names nothing: no file has tables so deep, and each is a call inside another.
+const DEEPEST: usize = 16;
+
 /// The key of readings.
 pub(super) const READINGS: &str = "readings";
 
@@ -130,6 +133,15 @@ pub(in crate::budget) fn column(
         return correlation(file, pair, name, faults).map(Column::Path);
     }
     let mut path = segments(wanted);
+    if path.len() > DEEPEST {
+        let message = say!("the column names a place {} tables deep", path.len());
+        faults.push(
+            Fault::new(UNKNOWN_NAME, name.span.clone(), message)
+                .label(say!("unknown column"))
+                .help(beyond_inputs()),
+        );
+        return None;
+    }
     for owner in OWNERS {
         let Some(entry) = entry(file, owner, &path[0]) else {
             continue;
@@ -259,11 +271,15 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
             [name] => say!(
                 "state it as [input.{name}] with its unit and uncertainty, or as [constant.{name}] with its unit: the rows give its value; `label` names the rows"
             ),
-            _ => say!(
-                "columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"
-            ),
+            _ => beyond_inputs(),
         }),
     }
+}
+
+fn beyond_inputs() -> Said {
+    say!(
+        "columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"
+    )
 }
 
 /// The input of which a column is the next in a number of them: `V1`, `V_2`, `V 3`.

@@ -364,6 +364,14 @@ components = [{ name = "scatter", readings = [1, 2, 3], pooled = { s = 0.5, dof 
         assert!(twice.contains("two columns set the same"), "{twice}");
     }
 
+    /// Every part of a path is a call inside another.
+    #[test]
+    fn a_path_has_an_end() {
+        let column = format!("\"X{}\"", ".a".repeat(100_000));
+        let refused = read_with(&column, "[1]").expect_err("no such place");
+        assert!(refused.contains("100001 tables deep"), "{refused}");
+    }
+
     /// Readings of the budget tell the repeatability of each row, and the value of none.
     #[test]
     fn a_value_is_not_that_of_the_budget() {

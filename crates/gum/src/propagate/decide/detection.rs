@@ -4,7 +4,7 @@
 use super::evidence::Evidence;
 use super::response::Response;
 use crate::budget::{Budget, Detection, MonteCarloSettings, Points, Trials};
-use crate::propagate::monte_carlo::{self, FirstOrder};
+use crate::propagate::monte_carlo::{self, FirstOrder, Ordered, Ranked as _, Ranks};
 use crate::propagate::options::Workers;
 use crate::propagate::result::{
     BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult, Run,
@@ -145,7 +145,6 @@ fn best_of_trials(
         .into_iter()
         .nth(detection.measurand)?;
     values.retain(|value| *value >= 0.0 && value.is_finite());
-    values.sort_by(f64::total_cmp);
     /// With fewer trials the ends are those of chance.
     const FEWEST: usize = 10_000;
     if values.len() < FEWEST {
@@ -154,18 +153,13 @@ fn best_of_trials(
     let n = values.len() as f64;
     let value = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|v| (v - value) * (v - value)).sum();
-    let covered = (detection.coverage_probability * n).round() as usize;
-    let last = values.len() - 1;
-    let ends = |first: usize| [values[first], values[(first + covered).min(last)]];
-    let width = |[low, high]: [f64; 2]| high - low;
-    let shortest = (0..=last - covered.min(last))
-        .map(ends)
-        .min_by(|a, b| width(*a).total_cmp(&width(*b)))?;
+    let ranks = Ranks::new(values.len(), detection.coverage_probability);
+    let ordered = Ordered::sorted(values);
     Some(BestEstimate {
         value,
         u: libm::sqrt(squares / (n - 1.0)),
-        symmetric: ends((last - covered.min(last)) / 2),
-        shortest,
+        symmetric: ordered.symmetric(ranks),
+        shortest: ordered.shortest(ranks),
         coverage_probability: detection.coverage_probability,
     })
 }

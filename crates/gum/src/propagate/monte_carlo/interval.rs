@@ -8,7 +8,7 @@ use gumption_lanes::separate::keep_inside;
 
 /// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Ranks {
+pub(in crate::propagate) struct Ranks {
     /// q: pM, rounded to the nearest whole number.
     pub(super) covered: usize,
     /// r of the probabilistically symmetric interval.
@@ -20,7 +20,7 @@ pub(super) struct Ranks {
 impl Ranks {
     /// For M ≥ 1 values and 0 < p < 1. With so few values that no rank is left outside, the
     /// interval is the whole range.
-    pub(super) fn new(values: usize, p: f64) -> Self {
+    pub(in crate::propagate) fn new(values: usize, p: f64) -> Self {
         let nearest = (p * values as f64 + 0.5).floor() as usize;
         let covered = nearest.min(values.saturating_sub(1));
         let last = values - covered;
@@ -38,7 +38,7 @@ const PILOT: usize = 1 << 10;
 
 /// The median and the two tails of a sample, in order.
 #[derive(Debug)]
-pub(super) struct Ordered {
+pub(in crate::propagate) struct Ordered {
     count: usize,
     /// The smallest values, ascending; all values where the tails would meet.
     low: Vec<f64>,
@@ -133,7 +133,8 @@ impl Ordered {
         }
     }
 
-    fn sorted(mut values: Vec<f64>) -> Self {
+    /// Orders all of them; at least one.
+    pub(in crate::propagate) fn sorted(mut values: Vec<f64>) -> Self {
         values.sort_unstable_by(f64::total_cmp);
         let count = values.len();
         Ordered {
@@ -146,7 +147,7 @@ impl Ordered {
 }
 
 /// Values whose order is known where it matters.
-pub(super) trait Ranked {
+pub(in crate::propagate) trait Ranked {
     /// How many values.
     fn count(&self) -> usize;
 

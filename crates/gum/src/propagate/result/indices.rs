@@ -1,5 +1,7 @@
 //! Sobol' sensitivity indices.
 
+use gumption_core::special::normal_upper_quantile;
+
 /// Sensitivity indices of a budget.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SensitivityIndices {
@@ -23,4 +25,14 @@ pub struct SobolIndex {
     pub total: f64,
     /// Its standard error.
     pub total_error: f64,
+}
+
+impl SobolIndex {
+    /// Whether first-order indices leave a part of the variance to inputs that act together: their sum is below 1 by more than
+    /// chance has it in 5 % of runs. Errors of the same trials add up at most.
+    pub fn leave_a_part(of: &[SobolIndex]) -> bool {
+        let sum: f64 = of.iter().map(|index| index.first).sum();
+        let error: f64 = of.iter().map(|index| index.first_error).sum();
+        1.0 - sum > normal_upper_quantile(0.05) * error
+    }
 }

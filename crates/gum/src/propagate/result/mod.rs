@@ -22,7 +22,36 @@ pub use monte_carlo::{
 pub use quasi::{Quasi, QuasiRun, WhyRandom};
 pub use validation::{Clause8, Validation};
 
-use crate::budget::NamedFigure;
+use super::options::{MonteCarloChoice, Options};
+use crate::budget::{Budget, MonteCarloSettings, NamedFigure};
+
+/// A row of a budget file with what came of it.
+#[derive(Debug, Clone)]
+pub struct EvaluatedRow {
+    /// The row of the file's series.
+    pub label: Option<String>,
+    /// What was evaluated.
+    pub budget: Budget,
+    /// What was found.
+    pub evaluation: Evaluation,
+}
+
+impl EvaluatedRow {
+    /// Those with which further trials are of the run that was evaluated.
+    pub fn options(&self) -> Options {
+        let run = self.evaluation.run.as_ref();
+        let monte_carlo = run.map_or(MonteCarloChoice::AsBudget, |run| {
+            MonteCarloChoice::With(MonteCarloSettings {
+                seed: run.seed,
+                ..self.budget.monte_carlo.clone()
+            })
+        });
+        Options {
+            monte_carlo,
+            ..Options::default()
+        }
+    }
+}
 
 /// What both methods found for one budget.
 #[derive(Debug, Clone, serde::Serialize)]

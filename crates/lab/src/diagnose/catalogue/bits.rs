@@ -2,7 +2,7 @@
 
 use super::building::{HIGHER, on_node, on_output, plain};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{figure, five_digits, map, range};
+use super::modifiers::{figure, five_digits, levels_of, map, range};
 use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{Observed, Role};
@@ -86,10 +86,11 @@ impl Codes<'_> {
         variants
     }
 
-    /// The bits that the recording can show: they change within the codes, and between two changes there are rows. One change is
+    /// The bits that the recording can show: they change within the codes, and between two changes there are codes. One change is
     /// a step at one value, whatever makes it.
     fn bits(&self, fitted: &FittedModel<'_>, term: &dyn Fn(Modifier) -> Term) -> Vec<Bit> {
-        /// Observations from one change to the next, at least: of fewer, a mean of rows on both sides of a change may be the only one.
+        /// Codes from one change to the next, at least: of fewer, a mean of rows on both sides of a change may be the only one, and
+        /// a bit that changes more often than the codes is as good as any other choice among few of them.
         const FEWEST: f64 = 2.0;
         let (least, most) = range(self.values);
         if most <= least {
@@ -97,10 +98,10 @@ impl Codes<'_> {
         }
         let base = &self.base;
         let span = libm::log2((most - least) / base.weight);
-        let observations = fitted.design.blocks.len() as f64;
+        let codes = levels_of(self.values).len() as f64;
         // From the bit that changes once or twice down to the one whose changes follow one another too closely.
         let highest = span.ceil() as i32;
-        let lowest = (span - libm::log2(observations / FEWEST)).ceil() as i32;
+        let lowest = (span - libm::log2(codes / FEWEST)).ceil() as i32;
         let lowest = if base.is_least { lowest.max(0) } else { lowest };
         let lattice = |before: f64| -> Vec<Bit> {
             let bit = |power: i32| {

@@ -240,12 +240,14 @@ fn steps(fitted: &FittedModel<'_>, along: &str) -> Vec<Variation> {
 /// A step from a row on.
 fn step(fitted: &FittedModel<'_>, along: &str, row: usize) -> Variation {
     let number = fitted.design.recorded(row).start + 1;
-    let label = match fitted.clock.column {
-        Some(_) => {
+    // A count that begins anew in each run names no moment.
+    let names_moments = fitted.clock.column.is_some() && fitted.clock.values.is_sorted();
+    let label = match names_moments {
+        true => {
             let time = figure(fitted.clock.values[row]);
             format!("at {along} = {time} {}", fitted.time_unit())
         }
-        None => format!("at row {number}"),
+        false => format!("at row {number}"),
     };
     let after = (0..fitted.rows()).map(|at| flag(at >= row));
     let after = Modifier::number(after.collect(), format!("[row >= {number}]"));

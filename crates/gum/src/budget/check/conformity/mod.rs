@@ -5,11 +5,11 @@ mod rule;
 
 use std::ops::Range;
 
-use crate::budget::check::amounts::{Share, is_in_ratios, is_ratio};
+use crate::budget::check::amounts::{Share, is_bare_ratio, is_in_ratios, is_ratio};
 use crate::budget::check::draft::{Context, show};
 use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
-use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
+use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, TOLERANCE};
 use crate::budget::tables::{ConformityTable, FileTable};
 use crate::budget::{Conformity, Interval, StatedTolerance};
 use gumption_core::quantity::Unit;
@@ -228,6 +228,12 @@ impl Checker<'_> {
         {
             return self.refuse(part_or_points(mpe, &own, nominal, subject));
         }
+        if let Some(own) = self.amount_unit(&mpe.value)?
+            && is_bare_ratio(&own)
+            && of.is_none()
+        {
+            return self.refuse(of_nothing(mpe, subject));
+        }
         let width = self.deviation(mpe, &context, Share::Unsaid)?;
         let compared = match nominal.filter(|nominal| *nominal != 0.0) {
             Some(nominal) => StatedTolerance::Nominal(nominal),
@@ -289,6 +295,17 @@ impl Checker<'_> {
         }
         self.claimed(stated, place)
     }
+}
+
+/// A maximum permissible error that is a part of no value.
+fn of_nothing(mpe: &Stated<Amount>, subject: &Subject<'_>) -> Fault {
+    let message = say!("{} is an error: of what is its limit a part?", subject.name);
+    Fault::new(RELATIVE_TO_ZERO, mpe.span.clone(), message)
+        .label(say!("a fraction of what?"))
+        .help(say!(
+            "add the value of which it is a part, the reading or the end of the range: mpe_of = \"…\"; or write it in {}",
+            subject.unit.symbol
+        ))
 }
 
 /// The value of which a maximum permissible error is a part, where the error itself is stated as a part of it already.

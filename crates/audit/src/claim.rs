@@ -228,14 +228,14 @@ fn range_of_normal(n: f64) -> (f64, f64) {
     let phi: Vec<f64> = (-END..=END)
         .map(|place| normal_cdf(f64::from(place) * STEP))
         .collect();
-    let below: Vec<f64> = phi.iter().map(|phi| phi.powf(n)).collect();
-    let above: Vec<f64> = phi.iter().map(|phi| (1.0 - phi).powf(n)).collect();
+    let below: Vec<f64> = phi.iter().map(|phi| libm::pow(*phi, n)).collect();
+    let above: Vec<f64> = phi.iter().map(|phi| libm::pow(1.0 - phi, n)).collect();
     let outer = below.iter().zip(&above);
     let mean: f64 = outer.map(|(below, above)| 1.0 - below - above).sum();
     let mut square = 0.0;
     for (y, below) in below.iter().enumerate() {
         for (x, above) in above[..=y].iter().enumerate() {
-            let whole = 1.0 - below - above + (phi[y] - phi[x]).powf(n);
+            let whole = 1.0 - below - above + libm::pow(phi[y] - phi[x], n);
             // The diagonal is an end of each inner integral.
             square += if x == y { whole } else { 2.0 * whole };
         }

@@ -62,7 +62,7 @@ mod tests;
 mod whiten;
 
 pub use crate::dd::Dd;
-pub use directions::{span, without};
+pub use directions::{products, span, without};
 pub use elsewhere::{Elsewhere, elsewhere};
 pub use gradient::Gradient;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};

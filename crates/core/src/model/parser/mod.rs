@@ -75,7 +75,7 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
             }
         }
     }
-    faults.extend(unread.into_iter().next());
+    faults.extend(unread.next());
     reading
 }
 

@@ -1,5 +1,6 @@
 //! Several of many terms of one kind that together explain the residuals, where one alone does not: a staircase.
 
+use gumption_core::least_squares::products;
 use gumption_core::special::ln_gamma;
 use nalgebra::{DMatrix, DVector};
 
@@ -49,7 +50,7 @@ impl Powers {
         (units.len() > 2).then(|| {
             let units = DMatrix::from_columns(&units);
             Powers {
-                products: units.tr_mul(&units),
+                products: products(&units, &units),
                 along: units.tr_mul(&absorbed.left),
                 places,
                 whole: absorbed.left.norm_squared(),

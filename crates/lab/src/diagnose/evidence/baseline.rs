@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gumption_core::least_squares::products;
 use nalgebra::{DMatrix, DVector};
 
 use super::noise::{Covariance, Factor, Noise};
@@ -194,7 +195,7 @@ impl Baseline {
             }
         };
         let colored = stacked(colored, &self.absorbed.rows(self.rows, known).into_owned());
-        let along = self.absorbed.tr_mul(&colored);
+        let along = products(&self.absorbed, &colored);
         let expected = trace + known as f64 - along.trace();
         let of_square = square + known as f64 - 2.0 * colored.norm_squared() + along.norm_squared();
         let gain = &self.inverse * along;
@@ -226,7 +227,7 @@ impl Baseline {
     pub(super) fn visible(&self, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
         let whitened = self.whiten(columns);
         let lengths = whitened.column_iter().map(|c| c.norm()).collect();
-        let along = self.absorbed.tr_mul(&whitened);
+        let along = products(&self.absorbed, &whitened);
         (whitened - &self.absorbed * along, lengths)
     }
 

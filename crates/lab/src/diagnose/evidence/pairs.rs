@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use gumption_core::least_squares::products;
 use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, maximum, named};
@@ -101,7 +102,7 @@ impl Singles {
         distinct.sort_unstable();
         distinct.dedup();
         let basis = self.of(&space.directions);
-        let cosines = basis.tr_mul(&basis.select_columns(&distinct));
+        let cosines = products(&basis, &basis.select_columns(&distinct));
         let evidence = |(lane, first): (usize, &usize)| {
             let at = distinct.partition_point(|other| other < first);
             let (own, cosines) = (along.column(lane), cosines.column(at));
@@ -151,7 +152,7 @@ impl Pairs {
     pub(super) fn new(space: &Space) -> Pairs {
         let singles = Singles::new(space);
         let basis = singles.of(&space.directions);
-        let gram = basis.tr_mul(&basis);
+        let gram = products(&basis, &basis);
         let both = (0..singles.each.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
         let resembling = both.filter(|both| gram[*both].abs() > APART);
         let pairs = resembling.filter_map(|(a, b)| singles.pair(a, b, gram[(a, b)]));

@@ -6,6 +6,7 @@
 //! directions U beside the orthonormal basis F of the set are T(Uᵀx − AᵀFᵀx), and T follows from the
 //! small matrix UᵀU − AᵀA.
 
+use gumption_core::least_squares::products;
 use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::{Ladder, named, scatter};
@@ -37,7 +38,7 @@ pub(super) struct Remainder {
 
 impl<'s> Remainders<'s> {
     pub(super) fn new(space: &'s Space<'s>, frame: &'s Frame) -> Remainders<'s> {
-        let along = frame.basis.tr_mul(&space.directions);
+        let along = products(&frame.basis, &space.directions);
         let rest = |index: usize| {
             let block = &space.blocks[index];
             if !space.may_join(frame, block) {
@@ -170,9 +171,9 @@ impl<'s> Remainders<'s> {
         };
         let own = self.space.places(generic);
         // UᵀU of the generic with all directions, without the set.
-        let mut cross = block.basis.tr_mul(&space.directions);
+        let mut cross = products(&block.basis, &space.directions);
         let along = self.along.columns_range(own.clone());
-        cross.gemm_tr(-1.0, &along.into_owned(), &self.along, 1.0);
+        cross.gemm(-1.0, &along.transpose(), &self.along, 1.0);
         let gram = cross.columns_range(own.clone()).into_owned();
         let with = |rest: &Remainder| {
             let score = self.score(rest, &observed)?;
@@ -239,6 +240,7 @@ fn scaled(roots: &[f64], gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
 /// the greatest remainder first; directions of which hardly anything is left are dropped.
 fn independent(mut gram: DMatrix<f64>) -> DMatrix<f64> {
     let size = gram.nrows();
+    // Rows of T, and of G, which is symmetric, stand as columns, which are contiguous.
     let mut turn: DMatrix<f64> = DMatrix::identity(size, size);
     let mut rows: Vec<DVector<f64>> = Vec::new();
     let mut left: Vec<usize> = (0..size).collect();
@@ -251,16 +253,13 @@ fn independent(mut gram: DMatrix<f64>) -> DMatrix<f64> {
         if !(share > NEAR) {
             break;
         }
-        let root = share.sqrt();
-        rows.push(turn.row(best).transpose() / root);
+        rows.push(turn.column(best) / share.sqrt());
         for other in &left {
-            let ratio = gram[(*other, best)] / share;
-            let taken = turn.row(best) * ratio;
-            let mut row = turn.row_mut(*other);
-            row -= taken;
-            let taken = gram.row(best) * ratio;
-            let mut row = gram.row_mut(*other);
-            row -= taken;
+            let ratio = gram[(best, *other)] / share;
+            for matrix in [&mut turn, &mut gram] {
+                let (mut from, taken) = matrix.columns_range_pair_mut(*other, best);
+                from.axpy(-ratio, &taken, 1.0);
+            }
         }
     }
     DMatrix::from_fn(rows.len(), size, |i, j| rows[i][j])

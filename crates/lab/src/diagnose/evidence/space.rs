@@ -1,5 +1,6 @@
 //! Atoms as directions in the space of z, and sets of them.
 
+use gumption_core::least_squares::products;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::closed_form::{Ladder, Scale, named, scatter};
@@ -372,7 +373,7 @@ fn block(
 
 /// Principal directions and eigenvalues of MMᵀ.
 pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
-    let (ladder, turn) = principal(columns.tr_mul(&columns))?;
+    let (ladder, turn) = principal(products(&columns, &columns))?;
     Some((ladder, columns * turn.transpose()))
 }
 

@@ -51,6 +51,12 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let stated = args.path.as_ref().or(args.output.as_ref());
     let path = stated.cloned().unwrap_or_else(|| default.into());
+    if is_of_other_files(&path) {
+        let path = path.display();
+        return output::complain(say!(
+            "{path} would be a text in TOML: let its name end in .toml; the experiment of a recording is written by `gumption new --recording {path}`"
+        ));
+    }
     let text = match (&args.recording, args.certificate) {
         (Some(recording), _) => match proposed(recording, &path, args) {
             Ok(text) => text,
@@ -89,6 +95,16 @@ pub(super) fn run(args: &Args) -> Outcome {
             output::complain(say!("{}{print}", unwritten.said(None)))
         }
     }
+}
+
+/// Whether a file of this name is taken for a table or a result by other commands.
+fn is_of_other_files(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let ending = ending.to_string_lossy();
+    [
+        "csv", "tsv", "txt", "xlsx", "xls", "ods", "json", "md", "html",
+    ]
+    .contains(&&*ending)
 }
 
 /// The experiment of a recording, for a file at `path`.

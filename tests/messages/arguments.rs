@@ -180,6 +180,7 @@ const MISTAKES: &[(&str, &[&str])] = &[
     ("explain_unknown_code", &["explain", "B9999"]),
     ("explain_empty", &["explain", ""]),
     ("new_on_an_existing_file", &["new", "good.toml"]),
+    ("new_named_as_a_table", &["new", "run.csv"]),
     ("new_in_a_missing_folder", &["new", "nowhere/budget.toml"]),
     ("schema_unknown", &["schema", "budgets"]),
     ("not_utf8", &["eval", "latin1.toml"]),

@@ -234,6 +234,21 @@ fn a_measured_noise_is_an_error_of_the_readings() {
         (u - 0.1 / 2.0_f64.sqrt()).abs() < 1e-12 && dof == 3.0,
         "{u} {dof}"
     );
+    // Rows without a temperature agree with none; those at 20 °C, 21 °C and 22 °C are the same pairs.
+    let without = RECORDING.to_owned() + "5,1,,0.1,11\n-5,2,,0.1,-9\n";
+    let experiment = format!("{EXPERIMENT}[noise]\nreplicates = [\"T\"]\n");
+    let files = [
+        ("rate.csv", without.as_bytes()),
+        ("rate.toml", experiment.as_bytes()),
+    ];
+    let campaign = load_from(
+        Files::Library(&files),
+        Path::new("rate.toml"),
+        Purpose::Calibrate,
+    )
+    .unwrap_or_else(|rejection| panic!("{rejection}"));
+    let doubt = &campaign.experiment.doubts[0];
+    assert!((doubt.u - u).abs() < 1e-12 && doubt.dof == 3.0, "{doubt:?}");
     // Four readings of ±0.1 mV about 0 and one of 0.
     let (u, dof) = noise("at_rest = { file = \"rest.csv\" }");
     assert!((u - 0.1).abs() < 1e-12 && dof == 4.0, "{u} {dof}");

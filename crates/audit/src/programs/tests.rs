@@ -133,6 +133,20 @@ fn what_is_not_understood_is_refused_at_its_place() {
         (
             "a.yaml",
             SUNCAL,
+            "    - 10.015\n    - 10.011\n    - 10.014\n    - 10.013\n",
+            "",
+            "a standard deviation takes two readings",
+        ),
+        (
+            "a.yaml",
+            SUNCAL,
+            "conf: 0.95",
+            "conf: 95",
+            "line 94, column 13 of this file of suncal: a probability between 0 and 1",
+        ),
+        (
+            "a.yaml",
+            SUNCAL,
             "mode: uncertainty",
             "mode: risk",
             "no component has the mode `uncertainty`",

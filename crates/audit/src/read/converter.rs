@@ -115,6 +115,8 @@ mod tests {
         for (text, expected) in [
             ("16-bit converter, range ±10 V", lsb(20.0, 16.0)),
             ("12 bit ADC, unipolar, full scale 10 V", lsb(10.0, 12.0)),
+            ("İ 16-bit ADC, 0-10 V", lsb(10.0, 16.0)),
+            ("İ 16-bit ADC, 0-", None),
             ("14-bit bipolar converter, full scale 5 V", lsb(10.0, 14.0)),
             ("quantisation of the 16-bit ADC, 0 to 5 V", lsb(5.0, 16.0)),
             ("16 位 A/D 转换器，量程 ±10 V", lsb(20.0, 16.0)),

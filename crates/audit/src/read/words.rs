@@ -677,6 +677,32 @@ mod tests {
     use super::*;
 
     #[test]
+    fn units_behind_brackets_are_of_both_figures() {
+        for (text, whole) in [
+            (
+                "(23 ± 1) °C and (50 ± 5) %, both",
+                "23 °C ± 1  °C and 50 % ± 5  %, both",
+            ),
+            ("(see note) (2 ± x) V", "(see note) (2 ± x) V"),
+        ] {
+            let blanks = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert_eq!(blanks(&with_units_inside(text)), blanks(whole));
+        }
+        // Every bracket is looked at once, and none is a call inside another.
+        let many = "(".repeat(100_000);
+        assert_eq!(with_units_inside(&many), many);
+    }
+
+    /// İ has two letters in small ones, and the signs of ohm and kelvin have shorter ones.
+    #[test]
+    fn small_letters_keep_their_places() {
+        for text in ["İ 16-bit ADC", "U in \u{2126} at 300 \u{212a}", "ΔU ÄÖ"] {
+            assert_eq!(lowered(text).len(), text.len(), "{text}");
+        }
+        assert_eq!(lowered("ΔU ÄÖ"), "δu äö");
+    }
+
+    #[test]
     fn figures_are_found_behind_their_words() {
         let after = |text: &str, keys: &[&str]| figure_after(text, keys).map(|p| (p.value, p.unit));
         assert_eq!(

@@ -353,6 +353,25 @@ fn positions_are_averaged_together() {
     );
 }
 
+/// Where settling leaves no point, the dwells are what is told.
+#[test]
+fn nothing_is_averaged_together_of_no_points() {
+    let toml = POSITIONS.replace(
+        "file =",
+        "dwells = [\"position\"]\ntogether = [\"position\"]\nsettle = \"1000 s\"\nfile =",
+    );
+    let csv = "t [s],position,U [mV]\n0,up,1\n1,up,1\n2,down,-1\n3,down,-1\n4,level,0\n5,level,0\n";
+    assert!(rejected(&toml, csv, Purpose::Calibrate).is_err());
+}
+
+/// Residuals that are zero have all their degrees of freedom.
+#[test]
+fn an_exact_fit_has_degrees_of_freedom() {
+    let csv = "omega [deg/s],U [mV]\n-2,-4\n-1,-2\n0,0\n1,2\n2,4\n";
+    let found = calibrate(&campaign(RATE, csv)).expect("coefficients");
+    assert!((found.responses[0].own_dof - 3.0).abs() < 1e-12);
+}
+
 /// Accelerometer triad, two points of each position. One response sees the exchange; the others, which see
 /// nothing of it, do not hide it. Which of two pairs it was the readings do not tell: the scale factor is
 /// positive with the one, negative with the other.

@@ -55,13 +55,7 @@ impl Language {
             (_, []) => String::new(),
             (_, [one]) => one.clone(),
             (Language::English, [front @ .., last]) => format!("{} and {last}", front.join(", ")),
-            (Language::Chinese, [front @ .., last]) => {
-                let beside = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric());
-                let blank = |c| if beside(c) { " " } else { "" };
-                let front = front.join("、");
-                let around = (front.chars().last(), last.chars().next());
-                format!("{front}{}和{}{last}", blank(around.0), blank(around.1))
-            }
+            (Language::Chinese, [front @ .., last]) => in_chinese(front, "和", last),
         }
     }
 
@@ -85,11 +79,20 @@ impl Language {
     pub fn either(self, names: &[String]) -> String {
         match (self, names) {
             (Language::Chinese, [front @ .., last]) if !front.is_empty() => {
-                format!("{}或{last}", front.join("、"))
+                in_chinese(front, "或", last)
             }
             _ => names.join(" or "),
         }
     }
+}
+
+/// Names with a word in front of the last one, with blanks between it and Latin letters.
+fn in_chinese(front: &[String], word: &str, last: &str) -> String {
+    let beside = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric());
+    let blank = |c| if beside(c) { " " } else { "" };
+    let front = front.join("、");
+    let around = (front.chars().last(), last.chars().next());
+    format!("{front}{}{word}{}{last}", blank(around.0), blank(around.1))
 }
 
 impl std::str::FromStr for Language {

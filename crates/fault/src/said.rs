@@ -298,7 +298,7 @@ mod tests {
         let inner = say!("[{names}]");
         let said = say!("{inner}: {}", &inner);
         assert_eq!(said.to_string(), "[a or b]: [a or b]");
-        assert_eq!(said.in_language(Language::Chinese), "[a或b]: [a或b]");
+        assert_eq!(said.in_language(Language::Chinese), "[a 或 b]: [a 或 b]");
     }
 
     #[test]

@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(Language::English.list(&names), "a, b and c");
         assert_eq!(Language::Chinese.list(&names), "a、b 和 c");
         assert_eq!(Language::English.either(&names), "a or b or c");
-        assert_eq!(Language::Chinese.either(&names), "a、b或c");
+        assert_eq!(Language::Chinese.either(&names), "a、b 或 c");
         assert_eq!(Language::Chinese.either(&names[..1]), "a");
         assert_eq!(Language::English.list(&names[..1]), "a");
     }

@@ -36,7 +36,6 @@ fn close(found: f64, expected: f64, relative: f64) {
     );
 }
 
-/// By hand: 1, 2, 4 with u = 1, 1, 2: weights 1, 1, 1/4, mean 4/2.25, χ² = Σ w x² − (Σ w x)²/Σ w.
 /// A row without k has a weight in the mean, and no expanded uncertainty to be tested by.
 #[test]
 fn a_row_without_k_is_not_tested() {
@@ -49,6 +48,7 @@ fn a_row_without_k_is_not_tested() {
     assert!(agreement.expected.is_finite(), "{agreement:?}");
 }
 
+/// By hand: 1, 2, 4 with u = 1, 1, 2: weights 1, 1, 1/4, mean 4/2.25, χ² = Σ w x² − (Σ w x)²/Σ w.
 #[test]
 fn a_group_is_what_arithmetic_makes_of_it() {
     let table = "label,y [V],u(y) [mV],U(y) [V]\na,1,1000,2\nb,2,1000,2\nc,4,2000,4\n";

@@ -178,20 +178,12 @@ fn replicates(
     // Rows without a value agree with none.
     let mut keys: Vec<Option<Vec<String>>> = vec![Some(Vec::new()); points.len()];
     for column in columns {
-        // Zero has one sign.
         let number = |row: usize| {
-            points
-                .column(&column.value)?
-                .values
-                .get(row)
-                .map(|x| x + 0.0)
-        };
-        let number = |row: usize| {
-            let number = number(row)?;
-            Some(if number.is_nan() {
-                String::new()
-            } else {
-                number.to_string()
+            let number = points.column(&column.value)?.values.get(row)?;
+            // Zero has one sign.
+            Some(match number.is_nan() {
+                true => String::new(),
+                false => (number + 0.0).to_string(),
             })
         };
         let label = |row: usize| Some(points.labels(&column.value)?.text(row).to_owned());

@@ -130,7 +130,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
 }
 
 /// Draws of the covariance matrix from what a recording at rest leaves open.
-const REST_DRAWS: usize = 24;
+pub(super) const REST_DRAWS: usize = 24;
 
 /// The noise of a recording at rest with its course in time, where both recordings have a time.
 fn in_time(

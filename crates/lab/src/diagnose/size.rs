@@ -4,6 +4,7 @@ use super::case::{Case, NoiseClaim};
 use super::coarse;
 use super::design::Design;
 use super::failure::Failure;
+use super::noise_claims::REST_DRAWS;
 use super::noise_correlation;
 
 /// No diagnosis takes more memory than this: half of what a machine of a laboratory has.
@@ -62,16 +63,19 @@ pub(super) fn fits_into_memory(case: &Case) -> Result<(), Failure> {
 /// The errors of all rows are drawn together, and take more memory than a diagnosis may.
 pub(super) fn draws_fit_into_memory(case: &Case) -> Result<(), Failure> {
     /// The covariance, the correlation and its root.
-    const MATRICES: u64 = 3;
-    let is_correlated = match &case.noise {
-        NoiseClaim::Stated { walk, .. } => walk.iter().any(|walk| *walk > 0.0),
-        NoiseClaim::AtRest { readings, .. } => readings.iter().all(|rest| rest.times.is_some()),
-        NoiseClaim::Estimated | NoiseClaim::PerRow { .. } | NoiseClaim::Replicates(_) => false,
+    const MATRICES: usize = 3;
+    let matrices = match &case.noise {
+        NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => MATRICES,
+        // What a rest leaves open are so many more, as covariances and as correlations.
+        NoiseClaim::AtRest { readings, .. } if readings.iter().all(|rest| rest.times.is_some()) => {
+            MATRICES + 2 * REST_DRAWS
+        }
+        _ => 0,
     };
     let observations = (case.responses.len() * case.rows) as u64;
-    let values = MATRICES.saturating_mul(observations.saturating_mul(observations));
+    let values = (matrices as u64).saturating_mul(observations.saturating_mul(observations));
     let bytes = values.saturating_mul(size_of::<f64>() as u64);
-    match is_correlated && bytes > MOST_BYTES {
+    match bytes > MOST_BYTES {
         true => Err(Failure::TooCorrelated {
             rows: case.rows,
             bytes,

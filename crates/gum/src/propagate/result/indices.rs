@@ -36,3 +36,26 @@ impl SobolIndex {
         1.0 - sum > normal_upper_quantile(0.05) * error
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::SobolIndex;
+
+    #[test]
+    fn a_sum_within_its_errors_leaves_nothing() {
+        let index = |first: f64, first_error: f64| SobolIndex {
+            first,
+            first_error,
+            total: first,
+            total_error: first_error,
+        };
+        for (first, error, leaves) in [
+            (0.45, 0.01, true),
+            (0.45, 0.04, false),
+            (0.506, 0.01, false),
+        ] {
+            let of = [index(first, error), index(first, error)];
+            assert_eq!(SobolIndex::leave_a_part(&of), leaves, "{first} {error}");
+        }
+    }
+}

@@ -95,7 +95,7 @@ impl Map {
 pub(super) fn found<T>(
     path: &Path,
     mapping: &Mapping,
-    find: fn(&str, &[u8], &Mapping) -> Result<T, Unreadable>,
+    find: impl FnOnce(&str, &[u8], &Mapping) -> Result<T, Unreadable>,
 ) -> Result<T, Said> {
     let name = path.display().to_string();
     let bytes = Files::Disk.read(path);

@@ -25,7 +25,7 @@ pub(super) struct Args {
     /// What the columns hold, as `gumption audit --map` writes it
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// Language of messages: en or zh [default: that of the system]
+    /// Language of messages and of the comments in the file: en or zh [default: that of the system]
     #[arg(long, value_name = "LANG", default_value = system_language(), hide_default_value = true)]
     lang: Language,
     #[command(flatten)]
@@ -47,7 +47,8 @@ pub(super) fn run(args: &Args) -> Outcome {
             }
         }
     };
-    let mut budgets = match found(&args.sheet, &mapping, budget_files) {
+    let find = |name: &_, bytes: &_, mapping: &_| budget_files(name, bytes, mapping, args.lang);
+    let mut budgets = match found(&args.sheet, &mapping, find) {
         Ok(budgets) => budgets,
         Err(complaint) => return output::complain(complaint),
     };

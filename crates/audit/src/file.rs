@@ -1,5 +1,6 @@
 //! Files of all kinds: sheets read by meaning, and those of other programs read by their rules.
 
+use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
 
 use crate::calculate::Case;
@@ -71,7 +72,7 @@ pub fn nothing_understood(name: &str, bytes: &[u8]) -> Said {
     }
 }
 
-/// Every budget of a file as a budget file.
+/// Every budget of a file as a budget file, whose comments are in a language.
 ///
 /// # Errors
 /// Why the file cannot be read, and where.
@@ -79,12 +80,16 @@ pub fn budget_files(
     name: &str,
     bytes: &[u8],
     mapping: &Mapping,
+    language: Language,
 ) -> Result<Vec<String>, Unreadable> {
     match programs::statements(name, bytes) {
-        Some(statements) => Ok(statements?.iter().map(programs::budget_file).collect()),
+        Some(statements) => {
+            let file = |statement| programs::budget_file(statement, language);
+            Ok(statements?.iter().map(file).collect())
+        }
         None => {
             let claims = read::budgets(&sheets(name, bytes)?, mapping);
-            let file = |claimed: &Claimed| import::budget_file(&Case::of(claimed));
+            let file = |claimed: &Claimed| import::budget_file(&Case::of(claimed), language);
             Ok(claims.iter().map(file).collect())
         }
     }

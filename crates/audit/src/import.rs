@@ -6,20 +6,18 @@ use crate::calculate::Case;
 use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
+use gumption_core::model::is_reserved;
+use gumption_fault::language::Language;
+use gumption_fault::{Said, say};
 use gumption_format::toml::writing::quoted;
 
-/// A budget file, with remarks as comments where the sheet leaves something open.
-pub(crate) fn budget_file(case: &Case<'_>) -> String {
+/// A budget file, with remarks as comments, in a language, where the sheet leaves something open.
+pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
     let claimed = case.claimed;
     let names = names(claimed);
     let mut text = String::new();
-    let title = if claimed.title.is_empty() {
-        "Imported budget"
-    } else {
-        &claimed.title
-    };
-    let _ = writeln!(text, "title = {}", quoted(title));
-    text += &conventions(claimed);
+    let _ = writeln!(text, "title = {}", quoted(&title(&claimed.title, language)));
+    text += &conventions(claimed, language);
     let measurand = identifier(&claimed.measurand, "y");
     let unit = unit_of_result(claimed);
     // A model needs the estimates of all its inputs; without them, contributions are added.
@@ -44,7 +42,12 @@ pub(crate) fn budget_file(case: &Case<'_>) -> String {
                 .zip(&names)
                 .filter(|(row, _)| row.not_counted.is_none());
             let sum: Vec<&str> = counted.map(|(_, name)| name.as_str()).collect();
-            text += "# The sheet has no model that holds with its estimates and their units: inputs are contributions to the result, coefficients included.\n";
+            text += &remark(
+                say!(
+                    "The sheet has no model that holds with its estimates and their units: inputs are contributions to the result, coefficients included."
+                ),
+                language,
+            );
             let _ = writeln!(text, "model = {}", quoted(&sum.join(" + ")));
         }
     }
@@ -58,6 +61,7 @@ pub(crate) fn budget_file(case: &Case<'_>) -> String {
             line: i,
             name: &names[i],
             of_model: model.is_some(),
+            language,
         };
         text += &input.text(&unit);
     }
@@ -85,7 +89,20 @@ fn has_all(claimed: &Claimed, model: &str) -> bool {
     })
 }
 
-fn conventions(claimed: &Claimed) -> String {
+/// The title of a file, or what stands for one.
+pub(crate) fn title(stated: &str, language: Language) -> String {
+    match stated.is_empty() {
+        true => say!("Imported budget").in_language(language),
+        false => stated.to_owned(),
+    }
+}
+
+/// What a reader should know, as a comment in a line of its own.
+fn remark(said: Said, language: Language) -> String {
+    format!("# {}\n", comment(&said.in_language(language)))
+}
+
+fn conventions(claimed: &Claimed, language: Language) -> String {
     let mut lines = Vec::new();
     match claimed.coverage {
         Coverage::Fixed(k) => lines.push(format!("coverage_factor = {k:?}")),
@@ -97,8 +114,8 @@ fn conventions(claimed: &Claimed) -> String {
             lines.push("output_distribution = \"dominant\"".into())
         }
         Coverage::Unstated => {
-            lines.push("# The sheet states no rule for k.".into());
-            lines.push("coverage_factor = 2.0".into());
+            let open = remark(say!("The sheet states no rule for k."), language);
+            lines.push(format!("{open}coverage_factor = 2.0"));
         }
     }
     match claimed.rounding {
@@ -143,14 +160,9 @@ fn identifier(symbol: &str, otherwise: &str) -> String {
         .chars()
         .all(|c| c.is_ascii_alphanumeric() || c == '_');
     let begins = symbol.starts_with(|c: char| c.is_ascii_alphabetic());
-    // Names of units and functions are taken.
-    const TAKEN: [&str; 10] = [
-        "pi", "e", "sin", "cos", "tan", "exp", "ln", "log", "sqrt", "abs",
-    ];
-    if plain && begins && !TAKEN.contains(&symbol) {
-        symbol.to_string()
-    } else {
-        otherwise.to_string()
+    match plain && begins && !is_reserved(symbol) {
+        true => symbol.to_string(),
+        false => otherwise.to_string(),
     }
 }
 
@@ -161,6 +173,7 @@ struct Input<'a> {
     line: usize,
     name: &'a str,
     of_model: bool,
+    language: Language,
 }
 
 impl Input<'_> {
@@ -168,7 +181,8 @@ impl Input<'_> {
         let row = self.row;
         let mut text = String::new();
         if let Some(why) = &row.not_counted {
-            return format!("\n# {} is not counted: {}\n", row.label(), comment(why));
+            let label = row.label();
+            return format!("\n{}", self.remark(say!("{label} is not counted: {why}")));
         }
         let _ = write!(text, "\n[input.{}]\n", self.name);
         let description = if row.name.is_empty() {
@@ -179,7 +193,7 @@ impl Input<'_> {
         let _ = writeln!(text, "description = {}", quoted(description));
         let said = comment(&row.words);
         if !said.is_empty() && said != *description {
-            let _ = writeln!(text, "# The sheet: {said}");
+            text += &self.remark(say!("The sheet: {said}"));
         }
         let unit = self.unit(y_unit);
         let value = row.value.as_ref().filter(|_| self.of_model);
@@ -211,6 +225,10 @@ impl Input<'_> {
         }
     }
 
+    fn remark(&self, said: Said) -> String {
+        remark(said, self.language)
+    }
+
     /// What a figure of the row is multiplied by to be in the unit of the input.
     fn factor(&self, unit: &str) -> f64 {
         let line = &self.case.right.lines[self.line];
@@ -228,7 +246,7 @@ impl Input<'_> {
         let line = &self.case.right.lines[self.line];
         let mut text = String::new();
         if self.row.relative != Relative::No {
-            text += "# Relative on the sheet.\n";
+            text += &self.remark(say!("Relative on the sheet."));
         }
         let standard = || {
             let dof = if line.dof.is_finite() {
@@ -256,10 +274,9 @@ impl Input<'_> {
                 k,
                 k_stated,
             } => {
-                let open = if *k_stated {
-                    ""
-                } else {
-                    "# The sheet does not state k.\n"
+                let open = match k_stated {
+                    true => String::new(),
+                    false => self.remark(say!("The sheet does not state k.")),
                 };
                 format!(
                     "{open}certificate = {{ U = {}, k = {k:?} }}\n",
@@ -271,10 +288,9 @@ impl Input<'_> {
                 shape,
                 shape_stated,
             } => {
-                let open = if *shape_stated {
-                    ""
-                } else {
-                    "# Nothing but limits is stated: rectangular.\n"
+                let open = match shape_stated {
+                    true => String::new(),
+                    false => self.remark(say!("Nothing but limits is stated: rectangular.")),
                 };
                 format!("{open}{}", limits(half_width.value, *shape))
             }
@@ -292,16 +308,13 @@ impl Input<'_> {
             }
             Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
                 let of = match *m {
-                    1.0 => "a single reading".to_string(),
-                    m => format!("the mean of {m} readings"),
+                    1.0 => say!("Of a single reading."),
+                    m => say!("Of the mean of {m} readings."),
                 };
-                format!("# Of {of}.\n{}type = \"A\"\n", standard())
+                format!("{}{}type = \"A\"\n", self.remark(of), standard())
             }
             Stated::Standard { .. } | Stated::Nothing => {
-                format!(
-                    "# The sheet states no more than this figure.\n{}",
-                    standard()
-                )
+                self.remark(say!("The sheet states no more than this figure.")) + &standard()
             }
         };
         text

@@ -147,7 +147,7 @@ impl<'a> Heads<'a> {
                 text,
                 name,
                 unit,
-                place: sheet.place(sheet.header(), at),
+                place: sheet.name_place(at),
             }
         };
         Heads {

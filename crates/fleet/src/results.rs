@@ -237,7 +237,7 @@ impl Results {
         if self.rows > 0 {
             return Ok(self);
         }
-        let place = head.place(head.header(), 0);
+        let place = head.name_place(0);
         let fault = Fault::new(NO_ROWS, place, say!("the table has no rows"));
         Err(vec![fault.label(say!("nothing follows this line"))])
     }

@@ -6,21 +6,17 @@ use gumption_core::distribution::Entry;
 use gumption_format::toml::writing::{key, quoted};
 
 use crate::claim::Shape;
-use crate::import::{comment, number};
+use crate::import::{comment, number, title};
+use gumption_fault::language::Language;
 
 use super::statement::{Equation, Input, Known, Part, Statement};
 
 /// The budget file, with what a reader should know of the source as comments.
-pub(crate) fn budget_file(statement: &Statement) -> String {
-    let mut text = String::new();
-    let title = if statement.title.is_empty() {
-        "Imported budget"
-    } else {
-        &statement.title
-    };
-    let _ = writeln!(text, "title = {}", quoted(title));
+pub(crate) fn budget_file(statement: &Statement, language: Language) -> String {
+    let title = title(&statement.title, language);
+    let mut text = format!("title = {}\n", quoted(&title));
     for remark in &statement.remarks {
-        let _ = writeln!(text, "# {}", comment(remark));
+        let _ = writeln!(text, "# {}", comment(&remark.in_language(language)));
     }
     if let Some(k) = statement.factor {
         let _ = write!(text, "\n[conventions]\ncoverage_factor = {k:?}\n");

@@ -2,6 +2,7 @@
 
 use gumption_core::model::{MeasurandSource, Request, Role, Symbol, compile};
 use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::say;
 
 use super::statement::{Equation, Statement};
 
@@ -40,7 +41,7 @@ impl Statement {
                     .iter_mut()
                     .for_each(|equation| equation.unit.clear());
                 self.remarks.push(
-                    "The units of the source do not hold in its formulas, which are of numbers: they are left out.".into(),
+                    say!("The units of the source do not hold in its formulas, which are of numbers: they are left out."),
                 );
             }
         }

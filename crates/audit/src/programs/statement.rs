@@ -1,6 +1,6 @@
 //! What a file of another program states: equations, inputs, and the reasons to doubt them.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use super::trouble::Trouble;
 use crate::claim::{Footer, Shape};
@@ -26,7 +26,7 @@ pub struct Statement {
     /// What the program computed and kept in its file, of the first result.
     pub computed: Footer,
     /// What a reader should know of what was read.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Said>,
 }
 
 /// An equation `name = formula`.

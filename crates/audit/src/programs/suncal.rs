@@ -1,7 +1,7 @@
 //! suncal: projects in YAML, a list of components of which those of the mode `uncertainty` are budgets.
 
 use gumption_core::special::normal_two_sided_quantile;
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use super::formula::{Spelling, formula, name};
 use super::numbers::{freedom, number, positive, whole};
@@ -155,7 +155,7 @@ fn equations(
     Ok(())
 }
 
-fn input(node: &Node, remarks: &mut Vec<String>) -> Result<Input, Trouble> {
+fn input(node: &Node, remarks: &mut Vec<Said>) -> Result<Input, Trouble> {
     node.only(&[
         "name",
         "mean",
@@ -221,7 +221,7 @@ fn input(node: &Node, remarks: &mut Vec<String>) -> Result<Input, Trouble> {
     Ok(input)
 }
 
-fn uncertainty(node: &Node, input: &Input, remarks: &mut Vec<String>) -> Result<Part, Trouble> {
+fn uncertainty(node: &Node, input: &Input, remarks: &mut Vec<Said>) -> Result<Part, Trouble> {
     const KEYS: [&str; 14] = [
         "name", "desc", "dist", "units", "degf", "df", "unc", "std", "scale", "k", "conf", "a",
         "d", "median",
@@ -286,7 +286,7 @@ fn uncertainty(node: &Node, input: &Input, remarks: &mut Vec<String>) -> Result<
             if has("conf") {
                 if dist.text != "t" && dof.is_some() {
                     let of = &input.name;
-                    remarks.push(format!(
+                    remarks.push(say!(
                         "{of}, {label}: suncal divides U by the factor of the normal distribution, and keeps the degrees of freedom."
                     ));
                     let p = probability()?;

@@ -2,6 +2,7 @@
 
 use crate::read::Mapping;
 use crate::{Verdict, audit, budget_files, claims};
+use gumption_fault::language::Language;
 
 const SUNCAL: &str = include_str!("../../tests/programs/power.yaml");
 const NIST: &str = include_str!("../../tests/programs/expansion.um");
@@ -95,7 +96,13 @@ fn names_of_uncertradio_are_the_same_in_all_cases() {
         (w * rn, w * rn * relative.sqrt(), f64::INFINITY),
         1e-9,
     );
-    let file = budget_files("activity.txp", RADIO.as_bytes(), &Mapping::default()).unwrap();
+    let file = budget_files(
+        "activity.txp",
+        RADIO.as_bytes(),
+        &Mapping::default(),
+        Language::English,
+    )
+    .unwrap();
     assert!(
         file[0].contains("[constant.V]") && file[0].contains("coverage_factor = 2.0"),
         "{}",
@@ -253,7 +260,12 @@ fn no_cut_file_is_a_panic() {
             let cut = text.get(..at).unwrap_or_default();
             let without = format!("{cut}{}", text.get(at + 7..).unwrap_or_default());
             for text in [cut, &without] {
-                let _ = budget_files(name, text.as_bytes(), &Mapping::default());
+                let _ = budget_files(
+                    name,
+                    text.as_bytes(),
+                    &Mapping::default(),
+                    Language::English,
+                );
                 for claimed in
                     claims(name, text.as_bytes(), &Mapping::default()).unwrap_or_default()
                 {

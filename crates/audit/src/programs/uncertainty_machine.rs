@@ -91,7 +91,7 @@ impl<'t> File<'t> {
         };
         if self.is_correlated && self.is_t {
             statement.remarks.push(
-                "The source joins its inputs by a t copula; here they are joined by the correlation coefficients alone.".into(),
+                say!("The source joins its inputs by a t copula; here they are joined by the correlation coefficients alone."),
             );
         }
         statement.in_order()

@@ -1,6 +1,6 @@
 //! UncertRadio: sections that begin with `@`, grids whose fields end with `#`, formulas from the result downwards.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use super::Program;
 use super::formula::{Spelling, formula, name};
@@ -177,7 +177,7 @@ impl<'t> Symbol<'t> {
     }
 
     /// `name # value # type # formula of u # u # half-width # absolute or relative # standard uncertainty #`.
-    fn input(&self, line: Piece<'_>, remarks: &mut Vec<String>) -> Result<Input, Trouble> {
+    fn input(&self, line: Piece<'_>, remarks: &mut Vec<Said>) -> Result<Input, Trouble> {
         let fields = line.split('#');
         let [_, value, kind, sd_formula, sd, half, mode, result, ..] = fields.as_slice() else {
             let name = &self.name;
@@ -225,22 +225,22 @@ impl<'t> Symbol<'t> {
             _ => None,
         };
         let named = match code as i64 {
-            1..=3 => "",
-            4 => "a count with the (N + x) rule",
-            5 => "a lognormal distribution",
-            6 => "a gamma distribution",
-            7 => "a binomial and Poisson distribution",
-            8 | 10 => "a beta distribution",
-            9 => "a t distribution",
-            11 => "a preset count",
+            1..=3 => None,
+            4 => Some(say!("a count with the (N + x) rule")),
+            5 => Some(say!("a lognormal distribution")),
+            6 => Some(say!("a gamma distribution")),
+            7 => Some(say!("a binomial and Poisson distribution")),
+            8 | 10 => Some(say!("a beta distribution")),
+            9 => Some(say!("a t distribution")),
+            11 => Some(say!("a preset count")),
             _ => {
                 let text = kind.text;
                 return Err(kind.trouble(say!("the distribution of type `{text}` is not known")));
             }
         };
-        if !named.is_empty() && known.is_some() {
+        if let Some(named) = named.filter(|_| known.is_some()) {
             let name = &self.name;
-            remarks.push(format!(
+            remarks.push(say!(
                 "{name} is {named} in the source; here a normal distribution with the same standard uncertainty."
             ));
         }

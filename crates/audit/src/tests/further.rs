@@ -3,6 +3,7 @@
 
 use super::{answer, first};
 use crate::{Verdict, audit, read, rules, sheet};
+use gumption_fault::language::Language;
 
 fn is_sound(name: &str, sheet: &str) {
     assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
@@ -214,7 +215,12 @@ fn contributions_in_degrees_are_imported_as_differences() {
         Bath uniformity limits ±,0.015,°C,rectangular,1.732,0.00866,1,0.00866\n\
         Bath stability limits ±,0.012,°C,rectangular,1.732,0.00693,1,0.00693\n\
         Combined standard uncertainty,,,,,,,0.0111\nExpanded uncertainty k = 2,,,,,,,0.022\n";
-    let files = crate::budget_files("sheet.csv", text.as_bytes(), &read::Mapping::default());
+    let files = crate::budget_files(
+        "sheet.csv",
+        text.as_bytes(),
+        &read::Mapping::default(),
+        Language::English,
+    );
     let files = files.unwrap();
     let units: Vec<&str> = files[0]
         .lines()

@@ -63,8 +63,7 @@ pub(super) fn two_signs(
 pub fn two_decimal_signs(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
     let column = |sign: Sign| {
         let at = sign.first_in(sheet, &has_numbers)?;
-        let header = sheet.header();
-        Some((header.field(at).to_owned(), sheet.place(header, at)))
+        Some((sheet.header().field(at).to_owned(), sheet.name_place(at)))
     };
     let ((points, at_points), (commas, at_commas)) = (column(Sign::Point)?, column(Sign::Comma)?);
     Some(two_signs((&points, at_points), (&commas, at_commas)))

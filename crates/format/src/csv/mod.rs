@@ -36,6 +36,7 @@
 mod column_unit;
 mod columns;
 mod doubts;
+mod draft;
 mod encoding;
 pub mod faults;
 mod field;
@@ -46,6 +47,7 @@ mod reader;
 mod request;
 mod sheet;
 mod size;
+mod source;
 mod summary;
 mod units_line;
 
@@ -56,9 +58,10 @@ pub(crate) use encoding::{is_utf16, with_line_feeds};
 pub use field::{OVERLOAD, date_meant, days, mend_of_number, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
-pub use reader::{headings, open, text_of};
+pub use reader::headings;
 pub use request::{Content, Request};
 pub use sheet::{BadRow, Row, RowFields, Sheet};
+pub use source::{open, text_of};
 pub use summary::mean_of_rows;
 
 use std::collections::BTreeSet;

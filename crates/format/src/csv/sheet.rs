@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::io::Cursor;
 use std::ops::Range;
+use std::sync::Arc;
 
 use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 use memchr::{memchr_iter, memchr3};
@@ -25,6 +26,8 @@ pub struct Sheet<'a> {
     skipped: usize,
     separator: u8,
     header: Row<'a>,
+    /// Where the names of the columns stand. Any of them may be asked for, and there may be thousands.
+    names: Arc<[Range<usize>]>,
     /// Of each column, where a line below that of the names holds them.
     units: Vec<Option<Unit>>,
 }
@@ -98,11 +101,13 @@ impl<'a> Sheet<'a> {
                 say!("expected names"),
             ));
         }
+        let names = extents(text, separator, header.start);
         Ok(Sheet {
             text,
             line: 1,
             skipped: 1,
             separator,
+            names: names.map(|name| trimmed_place(text, name)).collect(),
             header,
             units: Vec::new(),
         })
@@ -119,6 +124,7 @@ impl<'a> Sheet<'a> {
             skipped: 0,
             separator: self.separator,
             header: self.header.clone(),
+            names: Arc::clone(&self.names),
             units: self.units.clone(),
         }
     }
@@ -154,32 +160,25 @@ impl<'a> Sheet<'a> {
     /// The place of a field of a row in the text, without white space around it; the end of the row
     /// for a field that it lacks.
     pub fn place(&self, row: &Row<'_>, column: usize) -> Range<usize> {
-        let mut at = row.start;
-        let mut number = 0;
-        let bytes = self.text.as_bytes();
-        let end = |from: usize| {
-            let rest = bytes.get(from..).unwrap_or_default();
-            // As the reader has it: inside a field a quotation mark is a character as others are.
-            let is_quoted = rest.first() == Some(&b'"');
-            let mut is_open = false;
-            let length = rest.iter().position(|byte| {
-                is_open ^= is_quoted && *byte == b'"';
-                !is_open && (*byte == self.separator || *byte == b'\n' || *byte == b'\r')
-            });
-            from + length.unwrap_or(rest.len())
-        };
-        loop {
-            let stop = end(at);
-            let more = bytes.get(stop) == Some(&self.separator);
-            if number == column || !more {
-                let field = &self.text[at..stop];
-                let leading = field.len() - field.trim_start().len();
-                let start = if number == column { at + leading } else { stop };
-                return start..(at + field.trim_end().len()).max(start);
+        let mut end = row.start;
+        for (number, field) in extents(self.text, self.separator, row.start).enumerate() {
+            if number == column {
+                return trimmed_place(self.text, field);
             }
-            at = stop + 1;
-            number += 1;
+            end = field.end;
         }
+        end..end
+    }
+
+    /// The place of the name of a column.
+    pub fn name_place(&self, column: usize) -> Range<usize> {
+        let end = self.names.last().map_or(0, |name| name.end);
+        self.names.get(column).cloned().unwrap_or(end..end)
+    }
+
+    /// The place of all names.
+    pub fn header_place(&self) -> Range<usize> {
+        self.name_place(0).start..self.name_place(self.header.len().saturating_sub(1)).end
     }
 
     /// Goes through the rows below the first line; returns how many there are.
@@ -208,7 +207,7 @@ impl<'a> Sheet<'a> {
             last.message = say!("{}; {} more rows like this", last.message, bad - SHOWN);
         }
         if good + bad == 0 && faults.is_empty() {
-            let place = self.place(&self.header, 0);
+            let place = self.name_place(0);
             faults.push(
                 Fault::new(NO_ROWS, place, say!("the table has no rows"))
                     .label(say!("nothing follows this line")),
@@ -258,6 +257,33 @@ impl<'a> Sheet<'a> {
             false => say!("complete the row, or delete it"),
         })
     }
+}
+
+/// From where to where each field of the row goes that begins here.
+fn extents(text: &str, separator: u8, start: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+    let bytes = text.as_bytes();
+    let mut next = Some(start);
+    std::iter::from_fn(move || {
+        let from = next?;
+        let rest = bytes.get(from..).unwrap_or_default();
+        // As the reader has it: inside a field a quotation mark is a character as others are.
+        let is_quoted = rest.first() == Some(&b'"');
+        let mut is_open = false;
+        let length = rest.iter().position(|byte| {
+            is_open ^= is_quoted && *byte == b'"';
+            !is_open && (*byte == separator || *byte == b'\n' || *byte == b'\r')
+        });
+        let end = from + length.unwrap_or(rest.len());
+        next = (bytes.get(end) == Some(&separator)).then_some(end + 1);
+        Some(from..end)
+    })
+}
+
+/// A place without the white space around what stands there.
+fn trimmed_place(text: &str, whole: Range<usize>) -> Range<usize> {
+    let field = &text[whole.clone()];
+    let start = whole.start + field.len() - field.trim_start().len();
+    start..(whole.start + field.trim_end().len()).max(start)
 }
 
 impl Row<'_> {

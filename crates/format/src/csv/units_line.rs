@@ -30,15 +30,15 @@ impl<'a> Sheet<'a> {
         units.filter(|units| units.iter().any(Option::is_some))
     }
 
-    /// What the line of units says of a column, and where it says nothing, what its name does.
-    pub fn heading(&self, column: usize, by_name: impl FnOnce(&str) -> Heading) -> Heading {
-        let text = self.header().field(column);
-        match self.unit_below(column) {
+    /// What the line of units says of each column, and where it says nothing, what its name does.
+    pub fn headings(&self, by_name: impl Fn(&str) -> Heading) -> impl Iterator<Item = Heading> {
+        let names = self.header().fields().enumerate();
+        names.map(move |(column, text)| match self.unit_below(column) {
             Some(unit) => Heading {
                 unit: Ok(Some(unit.clone())),
                 ..Heading::plain(text)
             },
             None => by_name(text),
-        }
+        })
     }
 }

@@ -107,7 +107,7 @@ impl<'f> BatchFile<'f> {
             ]);
         }
         let in_table = |faults| Rejection::new(table, sheet.text(), faults);
-        let place = |at| sheet.place(sheet.header(), at);
+        let place = |at| sheet.name_place(at);
         let columns = Columns::of(sheet, place, &Ground::of(&file)).map_err(in_table)?;
         let mut faults = Vec::new();
         let kept = kept(keep, sheet, &columns.names, &mut faults);
@@ -162,12 +162,9 @@ fn kept(
             Some(at) if kept.contains(&at) => {}
             Some(at) => kept.push(at),
             None => {
-                let here = sheet.place(sheet.header(), 0).start
-                    ..sheet
-                        .place(sheet.header(), heads.len().saturating_sub(1))
-                        .end;
                 let message = say!("the table has no column \"{wanted}\" that could be kept");
-                let fault = Fault::new(NO_COLUMN, here, message).label(say!("the columns"));
+                let fault =
+                    Fault::new(NO_COLUMN, sheet.header_place(), message).label(say!("the columns"));
                 faults.push(match nearest(wanted, heads.iter().copied()) {
                     Some(near) => fault.help(say!("did you mean \"{near}\"?")),
                     None => fault.help(say!("write its name as the first line has it")),

@@ -78,10 +78,8 @@ impl Columns {
         place: impl Fn(usize) -> Range<usize>,
         ground: &Ground<'_, '_>,
     ) -> Result<Columns, Vec<Fault>> {
-        let heads = (0..sheet.header().len()).map(|at| {
-            let heading = sheet.heading(at, |name| ground.heading(name));
-            (heading, sheet.place(sheet.header(), at), place(at))
-        });
+        let headings = sheet.headings(|name| ground.heading(name)).enumerate();
+        let heads = headings.map(|(at, heading)| (heading, sheet.name_place(at), place(at)));
         Columns::under(heads, ground)
     }
 

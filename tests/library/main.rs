@@ -32,4 +32,5 @@ mod references;
 mod serve;
 mod sheets;
 mod strd;
+mod verdicts;
 mod workbooks;

@@ -77,6 +77,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
         budget: drawn,
         linear: &linear,
         results: &results,
+        second_order: &second_order,
         run: run.as_ref(),
         workers: options.workers(),
     });
@@ -91,6 +92,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
         budget: drawn,
         linear: &linear,
         results: &results,
+        second_order: &second_order,
         run: run.as_ref(),
         workers: options.workers(),
     };

@@ -111,12 +111,17 @@ fn stated(stack: &Stack<'_>, gain: &Gain, doubt: &Doubt) -> Cause {
 }
 
 impl Doubt {
-    /// What multiplies the error at a point: 1 unless a column does.
+    /// What multiplies the error at a point: 1 unless a column does, or unless each of the points has its own that were averaged
+    /// to this one.
     pub(super) fn share(&self, points: &Points, point: usize) -> f64 {
         let column = self.by.as_ref().and_then(|name| points.column(name));
-        column.map_or(1.0, |column| {
+        let by = column.map_or(1.0, |column| {
             column.values.get(point).copied().unwrap_or(0.0)
-        })
+        });
+        match self.scope {
+            Scope::Each => by * points.averaging(point),
+            Scope::Common | Scope::By(_) => by,
+        }
     }
 
     /// Whether each reading of a column has an error of this kind for itself.

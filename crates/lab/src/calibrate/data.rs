@@ -3,7 +3,6 @@
 use super::dwells::{Dwelling, DwellsBy};
 use super::points::Points;
 use super::schedule::scheduled;
-use crate::experiment::Purpose;
 use crate::experiment::checker::Checker;
 use crate::experiment::columns::Column;
 use crate::experiment::entries::{AverageEntry, RoleWord, Short};
@@ -13,6 +12,7 @@ use crate::experiment::names::Names;
 use crate::experiment::positions::{expected, optional};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ColumnTable, RecordingTable};
+use crate::experiment::{Doubt, Purpose};
 use crate::recording::{Checks, Finding, Problem, Recording, Request, Settling, Severity, check};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
@@ -20,7 +20,7 @@ use gumption_format::toml::{Named, Slot, Stated};
 use gumption_gum::budget::Rejection;
 use std::collections::HashSet;
 
-/// The points; `None` after faults of the calibration file.
+/// The points as they were recorded or scheduled; `None` after faults of the calibration file.
 pub(super) fn points(
     checker: &mut Checker<'_>,
     names: &Names,
@@ -28,22 +28,28 @@ pub(super) fn points(
     let table = &checker.source.table;
     let recording = table.recording.as_ref();
     let file = recording.and_then(|recording| recording.value.0.file.as_ref());
-    let points = match (file, &table.schedule, checker.purpose) {
-        (_, Some(_), Purpose::Plan) => scheduled(checker, names),
-        (Some(file), _, _) => recorded(checker, names, file)?,
+    match (file, &table.schedule, checker.purpose) {
+        (_, Some(_), Purpose::Plan) => Ok(scheduled(checker, names)),
+        (Some(file), _, _) => recorded(checker, names, file),
         (None, _, _) => {
             if !table.refused && !recording.is_some_and(|recording| recording.value.0.refused) {
                 checker.faults.push(no_data(checker.purpose));
             }
-            None
+            Ok(None)
         }
-    };
-    let together = recording.and_then(|stated| stated.value.0.together.as_ref());
-    let Some((points, together)) = points.as_ref().zip(together) else {
-        return Ok(points);
-    };
-    let columns: Vec<&str> = texts(&together.value);
-    Ok(Some(points.together(&columns)))
+    }
+}
+
+/// The points as they are used: those that the procedure averages, averaged.
+pub(super) fn together(checker: &Checker<'_>, points: Points, doubts: &[Doubt]) -> Points {
+    let recording = checker.source.table.recording.as_ref();
+    match recording.and_then(|stated| stated.value.0.together.as_ref()) {
+        None => points,
+        Some(columns) => {
+            let uncertainties = doubts.iter().filter_map(|doubt| doubt.by.as_deref());
+            points.together(&texts(&columns.value), &uncertainties.collect::<Vec<_>>())
+        }
+    }
 }
 
 fn texts(list: &[Stated<String>]) -> Vec<&str> {

@@ -192,7 +192,7 @@ impl Checker<'_> {
     }
 
     /// Units, equations and doubts, once the columns are known.
-    fn with_points(&mut self, names: &Names, points: Points) -> Option<Campaign> {
+    fn with_points(&mut self, names: &Names, mut points: Points) -> Option<Campaign> {
         let table = &self.source.table;
         let is_column = |name: &str| names.kind(name) == Some(Kind::Column);
         let columns = points.columns.iter();
@@ -204,7 +204,8 @@ impl Checker<'_> {
             })
             .collect();
         let mut experiment = self.experiment(names, &columns)?;
-        let is_stated = noise::add(self, &points, &mut experiment)?;
+        let is_stated = noise::add(self, &mut points, &mut experiment)?;
+        let points = data::together(self, points, &experiment.doubts);
         let omitted = self.omitted(&experiment);
         let results = self.results(&experiment);
         let conditions = data::conditions(self);

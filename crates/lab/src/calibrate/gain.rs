@@ -185,8 +185,13 @@ pub(super) fn levels(stack: &Stack<'_>, scope: &Scope) -> Vec<usize> {
     let level = |row: &Row| match (row, scope) {
         (Row::Reading { point, .. }, Scope::Each) => *point,
         (Row::Reading { point, .. }, Scope::By(_)) => {
-            let of_row = labels.and_then(|labels| labels.of_row.get(*point));
-            of_row.map_or(0, |level| *level as usize)
+            let of_row = labels.and_then(|labels| labels.of_row.get(*point).map(|of| (labels, of)));
+            match of_row {
+                None => 0,
+                // A point without a label shares its error with none.
+                Some((labels, _)) if labels.text(*point).is_empty() => labels.levels.len() + point,
+                Some((_, level)) => *level as usize,
+            }
         }
         _ => 0,
     };

@@ -3,15 +3,17 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::points::Points;
+use super::points::{PointColumn, Points};
 use crate::experiment::at_rest::Headed;
 use crate::experiment::checker::Checker;
 use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::source::entries;
 use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
+use crate::recording::Average;
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
+use gumption_core::statistics::{Dd, Series, pooled};
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::Evaluation;
@@ -20,9 +22,11 @@ use gumption_gum::budget::Evaluation;
 type Scatter = (f64, f64);
 
 /// Adds the stated noise to the errors of the readings; whether there is one, `None` after a fault.
+///
+/// It is that of one row. Where points are averages of rows, a column of the points says what is left of it there.
 pub(super) fn add(
     checker: &mut Checker<'_>,
-    points: &Points,
+    points: &mut Points,
     experiment: &mut Experiment,
 ) -> Option<bool> {
     let before = checker.faults.len();
@@ -41,32 +45,87 @@ pub(super) fn add(
             (true, Some(column)) => of_rows(checker, points, experiment, outputs, column),
         };
     };
-    let found: Vec<Scatter> = match way {
+    let found: Vec<OfRow> = match way {
         Way::From(_) => return Some(false),
         // Before there are readings, only what is stated tells their noise.
         Way::Replicates(_) if checker.purpose == Purpose::Plan => return Some(false),
+        // Replicates are points as they are, averages or not.
+        Way::Replicates(columns) => {
+            let found = replicates(checker, points, columns, &outputs)?;
+            for ((name, unit), scatter) in outputs.into_iter().zip(found) {
+                experiment.doubts.push(noise(name, unit, scatter));
+            }
+            return Some(true);
+        }
         Way::Stated(u, dof) => {
             let units: Vec<&Unit> = outputs.iter().map(|(_, unit)| unit).collect();
             let u = checker.noise_in(u, &units)?.into_iter();
-            u.map(|u| (u, dof)).collect()
+            u.map(|u| OfRow::independent((u, dof))).collect()
         }
         Way::Budget(path) => {
             let (u, dof) = checker.noise_of_budget(path, &outputs)?;
-            u.into_iter().map(|u| (u, dof)).collect()
+            u.into_iter()
+                .map(|u| OfRow::independent((u, dof)))
+                .collect()
         }
         Way::AtRest(stated) => {
             let headed: Vec<Headed> = outputs.iter().map(|of| headed(checker, of)).collect();
             let rest = checker.at_rest(stated, &headed, None)?;
             rest.iter()
-                .map(|rest| pooled([rest.readings.as_slice()]))
+                .map(|rest| OfRow::at_rest(&rest.average))
                 .collect()
         }
-        Way::Replicates(columns) => replicates(checker, points, columns, &outputs)?,
     };
-    for ((name, unit), scatter) in outputs.into_iter().zip(found) {
-        experiment.doubts.push(noise(name, unit, scatter));
+    for ((name, unit), of_row) in outputs.into_iter().zip(found) {
+        let left = points.column(&name).and_then(|read| of_row.left(read));
+        let mut doubt = noise(name, unit, of_row.scatter);
+        if let Some(left) = left {
+            points.columns.push(PointColumn {
+                name: doubt.name.clone(),
+                unit: Unit::one(),
+                values: left,
+                averages: Vec::new(),
+            });
+            doubt.by = Some(doubt.name.clone());
+        }
+        experiment.doubts.push(doubt);
     }
     Some(true)
+}
+
+/// The noise of a row, and by what its correlation multiplies the variance of the mean of many.
+struct OfRow {
+    scatter: Scatter,
+    factor: f64,
+}
+
+impl OfRow {
+    fn independent(scatter: Scatter) -> OfRow {
+        OfRow {
+            scatter,
+            factor: 1.0,
+        }
+    }
+
+    fn at_rest(rest: &Average) -> OfRow {
+        let count = rest.n as f64;
+        OfRow {
+            scatter: (rest.s, count - 1.0),
+            factor: count / rest.effective,
+        }
+    }
+
+    /// What is left of it where a point is the average of n rows: √(F/n), and no more than that of one row; `None` where no
+    /// point is an average.
+    fn left(&self, read: &PointColumn) -> Option<Vec<f64>> {
+        let of_point = |average: &Option<Average>| {
+            average.map_or(1.0, |average| {
+                (self.factor / average.n as f64).min(1.0).sqrt()
+            })
+        };
+        let left = read.averages.iter().map(of_point).collect();
+        (!read.averages.is_empty()).then_some(left)
+    }
 }
 
 /// The noise of an output: an error of each reading.
@@ -157,15 +216,9 @@ fn headed(checker: &Checker<'_>, (name, unit): &(String, Unit)) -> Headed {
     }
 }
 
-/// Standard deviation about the means of groups, with its degrees of freedom.
-fn pooled<'g>(groups: impl IntoIterator<Item = &'g [f64]>) -> Scatter {
-    let (mut sum, mut dof) = (0.0, 0.0);
-    for group in groups {
-        let mean = group.iter().sum::<f64>() / group.len() as f64;
-        sum += group.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-        dof += group.len() as f64 - 1.0;
-    }
-    ((sum / dof).sqrt(), dof)
+fn series(readings: &[f64]) -> Series {
+    let readings: Vec<Dd> = readings.iter().copied().map(Dd::from).collect();
+    Series::new(&readings)
 }
 
 /// The scatter of points that agree in all of these columns.
@@ -215,12 +268,13 @@ fn replicates(
     let scatter = |(name, _): &(String, Unit)| {
         let values = &points.column(name)?.values;
         let finite = |row: &usize| values.get(*row).copied().filter(|value| value.is_finite());
-        let groups: Vec<Vec<f64>> = rows
+        let groups: Vec<Series> = rows
             .values()
-            .map(|rows| rows.iter().filter_map(finite).collect())
-            .filter(|group: &Vec<f64>| group.len() > 1)
+            .map(|rows| rows.iter().filter_map(finite).collect::<Vec<_>>())
+            .filter(|group| group.len() > 1)
+            .map(|group| series(&group))
             .collect();
-        let (u, dof) = pooled(groups.iter().map(Vec::as_slice));
+        let (u, dof) = pooled(&groups);
         (u > 0.0).then_some((u, dof))
     };
     let found: Option<Vec<Scatter>> = outputs.iter().map(scatter).collect();

@@ -13,6 +13,8 @@ pub struct Points {
     pub columns: Vec<PointColumn>,
     /// Columns of labels, by name.
     pub labels: Vec<(String, Labels)>,
+    /// Where points that a procedure averages were averaged: how many each was. Empty otherwise.
+    pub merged: Vec<usize>,
     /// What is doubtful in the recording.
     pub findings: Vec<Finding>,
     /// Where points are averages of dwells: what was averaged, the readings farthest from their averages where there are very many.
@@ -117,6 +119,12 @@ impl Points {
         points
     }
 
+    /// By what the standard uncertainty of an error that each point has for itself is multiplied: 1/√n of an average of n points.
+    pub fn averaging(&self, point: usize) -> f64 {
+        let count = self.merged.get(point).copied().unwrap_or(1);
+        1.0 / (count as f64).sqrt()
+    }
+
     /// Whether any values are averages of samples.
     pub fn are_sampled(&self) -> bool {
         let mut columns = self.columns.iter();
@@ -148,6 +156,7 @@ impl Points {
             names: self.names.select(&rows),
             columns: self.columns.iter().map(column).collect(),
             labels: self.labels.iter().map(labels).collect(),
+            merged: picked(&self.merged, &rows),
             findings: self.findings.clone(),
             readings: Vec::new(),
         }

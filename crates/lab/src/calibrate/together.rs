@@ -8,12 +8,14 @@ use crate::recording::{Average, Finding, Labels, Problem};
 
 impl Points {
     /// Points with the same labels in all of these columns averaged to one, in the order of their first
-    /// ones; columns that are not there are passed over, and without any the points stay as they are.
+    /// ones; columns that are not there are passed over, and without any the points stay as they are. Points without a label are
+    /// left out: nothing says with which others they belong.
     ///
     /// A value that is missing in one point is missing in the average: what the others would cancel
-    /// remains without it.
+    /// remains without it. Columns of standard uncertainties have their root mean square, so that with [`Points::averaging`] it
+    /// is that of an average of independent errors.
     #[must_use]
-    pub fn together(&self, columns: &[&str]) -> Points {
+    pub fn together(&self, columns: &[&str], uncertainties: &[&str]) -> Points {
         let labels: Vec<&Labels> = columns
             .iter()
             .filter_map(|column| self.labels(column))
@@ -25,6 +27,9 @@ impl Points {
         let mut places: HashMap<Vec<&str>, usize> = HashMap::new();
         for row in 0..self.len() {
             let own: Vec<&str> = labels.iter().map(|labels| labels.text(row)).collect();
+            if own.iter().any(|label| label.is_empty()) {
+                continue;
+            }
             let place = *places.entry(own).or_insert_with_key(|own| {
                 groups.push((own.clone(), Vec::new()));
                 groups.len() - 1
@@ -42,9 +47,14 @@ impl Points {
             .collect();
         points.names = PointNames::Words(names);
         points.readings.clone_from(&self.readings);
+        points.merged = groups.iter().map(|(_, rows)| rows.len()).collect();
         for (column, own) in points.columns.iter_mut().zip(&self.columns) {
             let rows = groups.iter().map(|(_, rows)| rows);
             *column = own.averaged(rows);
+            if uncertainties.contains(&own.name.as_str()) {
+                let rows = groups.iter().map(|(_, rows)| rows);
+                column.values = rows.map(|rows| own.root_mean_square(rows)).collect();
+            }
         }
         points.findings.extend(uneven(&groups, columns));
         points
@@ -72,6 +82,11 @@ fn uneven(groups: &[(Vec<&str>, Vec<usize>)], columns: &[&str]) -> Vec<Finding> 
 }
 
 impl PointColumn {
+    fn root_mean_square(&self, rows: &[usize]) -> f64 {
+        let squares: f64 = rows.iter().map(|row| self.values[*row].powi(2)).sum();
+        (squares / rows.len() as f64).sqrt()
+    }
+
     fn averaged<'r>(&self, groups: impl Iterator<Item = &'r Vec<usize>>) -> PointColumn {
         let mut column = PointColumn {
             name: self.name.clone(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::checker::Checker;
 use super::faults::NOISE;
 use super::tables::StaticTable;
-use crate::recording::{Heading, Recording, Request};
+use crate::recording::{Average, Heading, Recording, Request};
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
@@ -27,6 +27,8 @@ pub struct RestReadings {
     pub times: Option<Vec<f64>>,
     /// Readings in the unit of the output.
     pub readings: Vec<f64>,
+    /// Their mean and scatter.
+    pub average: Average,
 }
 
 impl Checker<'_> {
@@ -116,12 +118,14 @@ impl Rest<'_> {
         let all = recording.numbers("rest").unwrap_or(&[]);
         let kept: Vec<usize> = (0..all.len()).filter(|row| all[*row].is_finite()).collect();
         let readings: Vec<f64> = kept.iter().map(|row| all[*row] * factor).collect();
-        if readings.len() < 3 || readings.iter().all(|x| *x == readings[0]) {
-            return Err(say!("`{name}` has too few readings, or no scatter"));
-        }
+        let average = Average::of(&readings).ok();
+        let average = average.filter(|average| average.n >= 3 && average.minimum < average.maximum);
+        let few = || say!("`{name}` has too few readings, or no scatter");
+        let average = average.ok_or_else(few)?;
         let times = times.filter(|times| times.len() == all.len());
         Ok(RestReadings {
             times: times.map(|times| kept.iter().map(|row| times[*row]).collect()),
+            average,
             readings,
         })
     }

@@ -94,6 +94,7 @@ fn verdict(decided: &Decided<'_>) -> Option<CertifiedVerdict> {
         (Verdict::NotConforming, _) => CertifiedVerdict::Fail,
         (Verdict::Undecided, true) => CertifiedVerdict::ConditionalPass,
         (Verdict::Undecided, false) => CertifiedVerdict::ConditionalFail,
+        (Verdict::Withheld, _) => return None,
     })
 }
 

@@ -84,6 +84,10 @@ impl Assessment<'_> {
                 "按规则判为不合格（在容许区间内，但不足以证明合格）",
             ),
             (Verdict::Undecided, _) => ("cannot be decided under the rule", "待定"),
+            (Verdict::Withheld, _) => (
+                "no verdict (first order does not give the uncertainty of this value; evaluate with Monte Carlo)",
+                "不作判定（一阶近似给不出该值的不确定度；请用蒙特卡洛法评定）",
+            ),
         };
         self.l.pick(english, chinese)
     }

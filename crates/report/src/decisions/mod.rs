@@ -63,6 +63,7 @@ pub(super) fn verdict_code(verdict: Verdict) -> &'static str {
         Verdict::Conforming => "conforming",
         Verdict::NotConforming => "not_conforming",
         Verdict::Undecided => "undecided",
+        Verdict::Withheld => "withheld",
     }
 }
 
@@ -72,6 +73,7 @@ pub(super) fn verdict_word(l: Language, verdict: Verdict) -> &'static str {
         Verdict::Conforming => l.pick("conforming", "合格"),
         Verdict::NotConforming => l.pick("not conforming", "不合格"),
         Verdict::Undecided => l.pick("undecided", "待定"),
+        Verdict::Withheld => l.pick("no verdict", "不作判定"),
     }
 }
 

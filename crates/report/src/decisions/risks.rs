@@ -3,7 +3,7 @@
 use super::conformity::Assessment;
 use super::words::{Rows, chance, related};
 use crate::language::Language;
-use crate::number::{NONE, significant};
+use crate::number::significant;
 use gumption_fault::say;
 use gumption_gum::propagate::Verdict;
 
@@ -59,7 +59,7 @@ impl Assessment<'_> {
                     chance(p),
                 )
             }),
-            Some(Verdict::Undecided) | None => None,
+            Some(Verdict::Undecided | Verdict::Withheld) | None => None,
         };
         if let Some((label, text)) = risk {
             rows.add(label, text);
@@ -105,22 +105,22 @@ impl Assessment<'_> {
             ),
         );
         rows.add(l.pick("Items accepted", "接受率"), chance(risk.accepted));
-        let given = |p: f64| {
-            if p.is_finite() {
-                chance(p)
-            } else {
-                NONE.to_string()
-            }
-        };
         let (consumer, producer) = (chance(risk.consumer), chance(risk.producer));
-        let (wrong, lost) = (given(risk.false_acceptance), given(risk.false_rejection));
+        let of_accepted = match risk.false_acceptance.map(chance) {
+            Some(wrong) => say!("R_C = {consumer}; of the accepted items {wrong} do not conform"),
+            None => say!("R_C = {consumer}; no item is accepted"),
+        };
+        let of_rejected = match risk.false_rejection.map(chance) {
+            Some(lost) => say!("R_P = {producer}; of the rejected items {lost} conform"),
+            None => say!("R_P = {producer}; no item is rejected"),
+        };
         rows.add(
             l.pick("Global consumer's risk", "总体使用方风险"),
-            say!("R_C = {consumer}; of the accepted items {wrong} do not conform").in_language(l),
+            of_accepted.in_language(l),
         );
         rows.add(
             l.pick("Global producer's risk", "总体生产方风险"),
-            say!("R_P = {producer}; of the rejected items {lost} conform").in_language(l),
+            of_rejected.in_language(l),
         );
     }
 }

@@ -19,7 +19,7 @@ record! {
         acceptance: Option<Vec<Number>>,
         /// Values outside of these limits are rejected.
         rejection: Vec<Number>,
-        /// Decision: conforming, not_conforming, undecided; null in planning.
+        /// Decision: conforming, not_conforming, undecided, withheld (first order is doubtful and Monte Carlo was not run); null in planning.
         verdict: Option<&'static str>,
         /// Conformance probability, with the knowledge of the process where there is some.
         conformance_probability: Option<Number>,
@@ -47,10 +47,10 @@ record! {
         consumer: Number,
         /// Global producer's risk.
         producer: Number,
-        /// Probability that an accepted item does not conform.
-        false_acceptance: Number,
-        /// Probability that a rejected item conforms.
-        false_rejection: Number,
+        /// Probability that an accepted item does not conform; null where none is accepted.
+        false_acceptance: Option<Number>,
+        /// Probability that a rejected item conforms; null where none is rejected.
+        false_rejection: Option<Number>,
     }
 
     /// Characteristic limits (ISO 11929).
@@ -108,8 +108,8 @@ pub(super) fn conformity<'a>(report: &Report<'a>) -> Vec<ConformityJson<'a>> {
             accepted: Number(risk.accepted),
             consumer: Number(risk.consumer),
             producer: Number(risk.producer),
-            false_acceptance: Number(risk.false_acceptance),
-            false_rejection: Number(risk.false_rejection),
+            false_acceptance: risk.false_acceptance.map(Number),
+            false_rejection: risk.false_rejection.map(Number),
         }),
     };
     pairs.map(one).collect()

@@ -10,8 +10,9 @@ use crate::budget::{Budget, Conformity, Interval};
 use crate::propagate::monte_carlo;
 use crate::propagate::reported::{Reason, Reported};
 use crate::propagate::result::{Conformance, ConformityResult, Verdict};
+use crate::propagate::second_order::Terms;
 use crate::propagate::shape::Shape;
-use crate::propagate::{coverage, freedom};
+use crate::propagate::{coverage, freedom, resolution};
 
 /// All assessments of a budget, in its order.
 pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
@@ -73,14 +74,34 @@ fn assessment(
     };
     let limits = situation.limits(conformity.rule);
     let width = conformity.tolerance.width();
+    let first = verdict(estimate, &limits);
+    let stands = match second_opinion(evidence, conformity.measurand, &reported) {
+        Opinion::None => true,
+        Opinion::Open => false,
+        Opinion::Of(second) => {
+            let u_at = u_of_value(budget, conformity, second.estimate, second.u);
+            let other = Situation {
+                kernel: &Kernel { u: &u_at, dof },
+                known: match &conformity.process {
+                    Some(process) => Known::Process(process),
+                    None => Known::Nothing(Shape::student_t(dof)),
+                },
+                k: second.expanded / second.u,
+                expanded: second.expanded,
+                ..situation
+            };
+            verdict(second.estimate, &other.limits(conformity.rule)) == first
+        }
+    };
+    let judged = if stands { first } else { Verdict::Withheld };
     ConformityResult {
         estimate,
         u,
         expanded,
         acceptance: limits.acceptance,
         rejection: limits.rejection,
-        verdict: (!conformity.planning).then(|| verdict(estimate, &limits)),
-        conformance: (!conformity.planning).then(|| {
+        verdict: (!conformity.planning).then_some(judged),
+        conformance: (!conformity.planning && stands).then(|| {
             let both = situation.known_at(estimate);
             let from_measurement = match &situation.known {
                 Known::Nothing(_) => both.map(|(inside, _)| inside),
@@ -102,6 +123,49 @@ fn assessment(
             .process
             .as_ref()
             .map(|process| risks(process, conformity.tolerance, &limits, &kernel)),
+    }
+}
+
+/// What second order says of a result that nothing else checks.
+enum Opinion {
+    /// Nothing that matters, or the result was checked.
+    None,
+    /// Other figures.
+    Of(Second),
+    /// That the uncertainty is of higher order, which it does not see.
+    Open,
+}
+
+struct Second {
+    estimate: f64,
+    u: f64,
+    expanded: f64,
+}
+
+fn second_opinion(evidence: &Evidence<'_>, measurand: usize, reported: &Reported) -> Opinion {
+    let (gum, linear) = (&evidence.results[measurand].gum, evidence.linear);
+    let outcome = &evidence.second_order[measurand];
+    if reported.reason != Reason::NotChecked
+        || resolution::cancels(linear, evidence.second_order, measurand)
+    {
+        return Opinion::None;
+    }
+    let nonlinear = evidence.budget.model.nonlinear_inputs();
+    let mut inputs = linear.inputs.iter().zip(nonlinear);
+    let bends = inputs.any(|(input, nonlinear)| input.u > 0.0 && nonlinear);
+    // Neither order sees anything where the model may hide it.
+    let is_unseen = |u: f64| u == 0.0 && bends;
+    match &outcome.terms {
+        Terms::Linear if is_unseen(gum.u) => Opinion::Open,
+        Terms::Linear => Opinion::None,
+        Terms::Divergent => Opinion::Open,
+        Terms::Found(found) if is_unseen(found.u) => Opinion::Open,
+        Terms::Found(found) if !found.matters => Opinion::None,
+        Terms::Found(found) => Opinion::Of(Second {
+            estimate: gum.estimate + found.shift,
+            u: found.u,
+            expanded: gum.coverage.k * found.u,
+        }),
     }
 }
 

@@ -62,8 +62,8 @@ fn of_conformity(found: &ConformityResult, unit: &Unit) -> [Value; Conformity::F
         pure(global.map(|g| g.accepted)),
         pure(global.map(|g| g.consumer)),
         pure(global.map(|g| g.producer)),
-        pure(global.map(|g| g.false_acceptance)),
-        pure(global.map(|g| g.false_rejection)),
+        pure(global.and_then(|g| g.false_acceptance)),
+        pure(global.and_then(|g| g.false_rejection)),
     ]
 }
 

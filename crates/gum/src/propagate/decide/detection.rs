@@ -23,6 +23,7 @@ pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Ve
         };
         let limits = from_u(detection, &|value| response.u_at(value));
         let from_trials = evidence.run.zip(limits).and_then(|(run, limits)| {
+            let needed = trials_for(detection.alpha.min(detection.beta))?;
             let trials = Sampling {
                 response,
                 detection,
@@ -30,7 +31,7 @@ pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Ve
                     points: Points::Random,
                     indices: false,
                     seed: run.seed,
-                    trials: Trials::Fixed(run.trials),
+                    trials: Trials::Fixed(run.trials.max(needed)),
                 },
                 workers: evidence.workers,
             };
@@ -48,6 +49,15 @@ pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Ve
         }
     });
     found.collect()
+}
+
+/// Trials that show a quantile with so much beyond it: 10⁴/(1 − p) (JCGM 101 7.2.2) of an interval that leaves as much on
+/// either side; `None` where they are more than are drawn.
+fn trials_for(tail: f64) -> Option<u64> {
+    /// A second or two for each of the runs by which the detection limit is found.
+    const MOST: f64 = 1e7;
+    let needed = 1e4 / (2.0 * tail);
+    (needed <= MOST).then_some(needed as u64)
 }
 
 /// y* = k_{1−α}·ũ(0), and y# from y# = y* + k_{1−β}·ũ(y#).
@@ -104,6 +114,11 @@ fn root(low: f64, high: f64, f: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
 
 /// ISO 11929-1:2019 clauses 9 and 10, for a normal distribution cut off at zero.
 fn best_estimate(y: f64, u: f64, coverage: f64) -> BestEstimate {
+    /// Below, what is left above zero is taken from its own series: as doubles, Φ(y/u) and what is subtracted from y vanish.
+    const FAR: f64 = -30.0;
+    if y / u < FAR {
+        return far_below(-y / u, u, coverage);
+    }
     let omega = normal_cdf(y / u);
     let gamma = 1.0 - coverage;
     // φ(z)/Φ(z); for very negative z it is −z and more.
@@ -129,6 +144,43 @@ fn best_estimate(y: f64, u: f64, coverage: f64) -> BestEstimate {
         shortest,
         coverage_probability: coverage,
     }
+}
+
+/// The same of a result that lies `a` standard uncertainties below zero, by the continued fraction of Laplace for the tail of
+/// the normal distribution: φ(a)/Q(a) = a + K with K = 1/(a + 2/(a + 3/(a + …))).
+fn far_below(a: f64, u: f64, coverage: f64) -> BestEstimate {
+    let gamma = 1.0 - coverage;
+    let (k, l) = laplace(a);
+    // Q(a + t) = q Q(a), by Newton's method for the logarithm, which is nearly straight.
+    let above = |q: f64| {
+        let ln_of_tail = |t: f64| {
+            let at = a + t;
+            -t * (a + t / 2.0) + libm::log((a + k) / (at + laplace(at).0))
+        };
+        let mut t = -libm::log(q) / (a + k);
+        for _ in 0..20 {
+            let at = a + t;
+            t += (ln_of_tail(t) - libm::log(q)) / (at + laplace(at).0);
+        }
+        u * t
+    };
+    BestEstimate {
+        value: u * k,
+        u: u * (k * (l - k)).sqrt(),
+        symmetric: [above(1.0 - gamma / 2.0), above(gamma / 2.0)],
+        shortest: [0.0, above(gamma)],
+        coverage_probability: coverage,
+    }
+}
+
+/// K and L of 1/(a + L), L = 2/(a + 3/(a + …)), for a from 30 on.
+fn laplace(a: f64) -> (f64, f64) {
+    /// Each step adds more than three digits there.
+    const STEPS: u32 = 12;
+    let l = (2..STEPS)
+        .rev()
+        .fold(0.0, |rest, n| f64::from(n) / (a + rest));
+    (1.0 / (a + l), l)
 }
 
 /// ISO 11929-2: mean, standard deviation and intervals of the trials that are not negative.
@@ -241,6 +293,36 @@ mod tests {
         coverage_probability: 0.95,
         guideline: None,
     };
+
+    /// Where both ways hold, they agree; far below zero the rest is exponential, with mean and standard deviation u²/|y|.
+    #[test]
+    fn what_is_left_far_below_zero() {
+        let (y, u) = (-29.0, 1.0);
+        let (near, far) = (best_estimate(y, u, 0.95), far_below(-y / u, u, 0.95));
+        let figures = |one: &BestEstimate| {
+            [
+                one.value,
+                one.u,
+                one.symmetric[0],
+                one.symmetric[1],
+                one.shortest[1],
+            ]
+        };
+        for (near, far) in figures(&near).into_iter().zip(figures(&far)) {
+            assert!((near / far - 1.0).abs() < 1e-9, "{near} {far}");
+        }
+        let best = best_estimate(-1e4, 1.0, 0.95);
+        let exponential = [
+            1.0,
+            1.0,
+            -libm::log(0.975),
+            -libm::log(0.025),
+            -libm::log(0.05),
+        ];
+        for (found, expected) in figures(&best).into_iter().zip(exponential) {
+            assert!((found * 1e4 / expected - 1.0).abs() < 1e-7, "{found}");
+        }
+    }
 
     /// Currie (1968): u²(y) = y + 2B with unit calibration, y# = k² + 2k·√(2B).
     #[test]

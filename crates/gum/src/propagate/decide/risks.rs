@@ -99,9 +99,14 @@ pub(super) fn risks(
         accepted,
         consumer,
         producer,
-        false_acceptance: consumer / accepted,
-        false_rejection: producer / rejected,
+        false_acceptance: share(consumer, accepted),
+        false_rejection: share(producer, rejected),
     }
+}
+
+/// A part of those that are accepted or rejected, where any are.
+fn share(part: f64, of: f64) -> Option<f64> {
+    (of > 0.0).then(|| part / of)
 }
 
 #[cfg(test)]
@@ -238,7 +243,8 @@ mod tests {
             let found = risks(&process, tolerance, &simple(tolerance), &kernel);
             // The table itself is good to six digits.
             assert!((100.0 * found.consumer - pfa).abs() < 2e-6, "{itp}");
-            assert!((100.0 * found.false_acceptance - conditional).abs() < 2e-6);
+            let false_acceptance = found.false_acceptance.expect("some are accepted");
+            assert!((100.0 * false_acceptance - conditional).abs() < 2e-6);
             close(found.in_tolerance, itp, 1e-12);
         }
     }

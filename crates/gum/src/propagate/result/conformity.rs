@@ -18,7 +18,7 @@ pub struct ConformityResult {
     pub rejection: Interval,
     /// The decision; `None` in planning.
     pub verdict: Option<Verdict>,
-    /// What is known of the item that was measured; `None` in planning.
+    /// What is known of the item that was measured; `None` in planning, and where the verdict is withheld.
     pub conformance: Option<Conformance>,
     /// Measurement capability index C_m = T/(4u) (JCGM 106 7.6.4), with two tolerance limits.
     pub capability: Option<f64>,
@@ -37,6 +37,9 @@ pub enum Verdict {
     NotConforming,
     /// Neither, under the rule.
     Undecided,
+    /// None is given: the first order is doubtful, Monte Carlo was not run, and the second order decides otherwise or cannot
+    /// tell.
+    Withheld,
 }
 
 /// Knowledge of the item that was measured.
@@ -66,8 +69,9 @@ pub struct GlobalRisk {
     pub consumer: f64,
     /// R_P: probability that an item conforms and is rejected.
     pub producer: f64,
-    /// Probability that an accepted item does not conform, R_C over the probability of acceptance.
-    pub false_acceptance: f64,
-    /// Probability that a rejected item conforms.
-    pub false_rejection: f64,
+    /// Probability that an accepted item does not conform, R_C over the probability of acceptance; `None` where no item is
+    /// accepted.
+    pub false_acceptance: Option<f64>,
+    /// Probability that a rejected item conforms; `None` where no item is rejected.
+    pub false_rejection: Option<f64>,
 }

@@ -1,0 +1,95 @@
+//! Points that are averages of rows: what is stated of one row counts for each of them.
+
+use super::super::calibrate;
+use super::{campaign, near};
+
+const DWELLS: usize = 4;
+const ROWS: usize = 9;
+
+/// Rows of U = 2 x + 0.5 at four positions, with errors that are known and alternate, so that they have no serial correlation;
+/// `u` is the standard uncertainty of each row.
+fn csv() -> String {
+    let rows = (0..DWELLS).flat_map(|dwell| (0..ROWS).map(move |row| (dwell, row)));
+    let lines = rows.map(|(dwell, row)| {
+        let (x, error) = (
+            dwell as f64,
+            0.01 * ((row * 5 + dwell) % ROWS) as f64 - 0.04,
+        );
+        format!("{x},P{dwell},{},0.03\n", 2.0 * x + 0.5 + error)
+    });
+    format!("x,pos,U,uu\n{}", lines.collect::<String>())
+}
+
+/// u and ν of the slope.
+fn slope(recording: &str, rest: &str) -> (f64, f64) {
+    let toml = format!(
+        "title = \"Line\"\nequations = [\"U = K*x + b\"]\n[parameter]\nK = {{}}\nb = {{}}\n\
+         [recording]\nfile = \"run.csv\"\n{recording}\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n{rest}\n"
+    );
+    let found = calibrate(&campaign(&toml, &csv())).expect("coefficients");
+    let slope = &found.figures.coefficients[0];
+    (slope.u, slope.dof)
+}
+
+/// u of the slope of 36 rows with σ each: σ/√Σ(x − x̄)², Σ = 9·5.
+fn expected(sigma: f64) -> f64 {
+    sigma / (ROWS as f64 * 5.0).sqrt()
+}
+
+const WAYS: [&str; 3] = [
+    "average = \"none\"",
+    "average = \"none\"\ntogether = [\"pos\"]",
+    "dwells = [\"pos\"]",
+];
+
+#[test]
+fn noise_of_a_row_averages() {
+    for way in WAYS {
+        let (u, _) = slope(way, "[noise]\nu = 0.03");
+        near(u, expected(0.03), 1e-9);
+    }
+}
+
+#[test]
+fn errors_of_each_reading_average_where_points_do() {
+    for way in &WAYS[..2] {
+        let (u, _) = slope(way, "[noise]\nfrom = \"stated\"\n[reading.U]\nu = 0.03");
+        near(u, expected(0.03), 1e-9);
+        let (u, _) = slope(way, "uu = \"u\"");
+        near(u, expected(0.03), 1e-9);
+    }
+}
+
+#[test]
+fn replicates_are_the_rows_before_they_are_averaged() {
+    let scatter: f64 = (0..ROWS).map(|k| (0.01 * k as f64 - 0.04).powi(2)).sum();
+    let s = (scatter / (ROWS as f64 - 1.0)).sqrt();
+    for way in &WAYS[..2] {
+        let (u, dof) = slope(way, "[noise]\nreplicates = [\"pos\"]");
+        near(u, expected(s), 1e-9);
+        near(dof, (DWELLS * (ROWS - 1)) as f64, 1e-9);
+    }
+}
+
+#[test]
+fn rows_without_a_label_belong_to_no_average() {
+    let toml = "title = \"Line\"\nequations = [\"U = K*x\"]\n[parameter]\nK = {}\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n\
+                together = [\"pos\"]\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n[noise]\nu = 0.1\n";
+    let found = campaign(toml, "x,pos,U\n1,A,2\n1,A,2\n2,,9\n4,,9\n3,B,6\n");
+    assert_eq!(found.points.len(), 2);
+    assert_eq!(found.points.merged, [2, 1]);
+}
+
+/// Points with a label share an error of that label; those without share none.
+#[test]
+fn rows_without_a_label_share_no_error() {
+    let toml = "title = \"Mean\"\nequations = [\"U = b\"]\n[parameter]\nb = {}\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n\
+                [columns]\nrun = \"label\"\nU = \"output\"\n[noise]\nfrom = \"stated\"\n[reading.U]\nu = 1\nby = \"run\"\n";
+    let u = |csv: &str| {
+        let found = calibrate(&campaign(toml, csv)).expect("coefficients");
+        found.figures.coefficients[0].u
+    };
+    // The mean of four: errors of A twice, and of two rows by themselves.
+    near(u("run,U\nA,1\nA,2\n,1\n,2\n"), 6f64.sqrt() / 4.0, 1e-12);
+    near(u("run,U\nA,1\nA,2\nB,1\nB,2\n"), 8f64.sqrt() / 4.0, 1e-12);
+}

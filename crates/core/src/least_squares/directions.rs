@@ -1,8 +1,10 @@
 //! Directions in the space of the readings: what columns span, and what is left of others beside them.
 
+use super::decomposition::singular;
 use nalgebra::DMatrix;
 
-/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`.
+/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`; none of
+/// columns with numbers that are not finite.
 pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
     for mut column in columns.column_iter_mut() {
         let length = column.norm();
@@ -10,11 +12,13 @@ pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
             column /= length;
         }
     }
-    let svd = columns.svd(true, false);
-    let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|k| svd.singular_values[*k] > flat)
-        .collect();
-    svd.u.unwrap_or_default().select_columns(&kept)
+    let rows = columns.nrows();
+    let Some((svd, Some(u))) = singular(columns).map(|mut svd| (svd.singular_values, svd.u.take()))
+    else {
+        return DMatrix::zeros(rows, 0);
+    };
+    let kept: Vec<usize> = (0..svd.len()).filter(|k| svd[*k] > flat).collect();
+    u.select_columns(&kept)
 }
 
 /// Columns with what lies along an orthonormal basis taken out.

@@ -10,6 +10,7 @@
 //! | `polynomial` | the response that is a polynomial in one predictor |
 //! | `gradient` | the response that is a function with its slopes |
 //! | `factor` | pivoted Householder QR and Cholesky, in either precision |
+//! | `decomposition` | singular values and axes of a matrix |
 //! | `whiten` | errors of y to unit variance |
 //! | `linear` | responses affine in their parameters, exact predictors |
 //! | `nonlinear` | Levenberg–Marquardt, finished by Gauss–Newton steps |
@@ -43,6 +44,7 @@
     reason = "matrix formulas are read by their indices"
 )]
 
+mod decomposition;
 mod derivatives;
 mod directions;
 mod elsewhere;
@@ -62,6 +64,7 @@ mod tests;
 mod whiten;
 
 pub use crate::dd::Dd;
+pub use decomposition::{axes, pseudo_inverse, singular};
 pub use directions::{products, span, without};
 pub use elsewhere::{Elsewhere, elsewhere};
 pub use gradient::Gradient;

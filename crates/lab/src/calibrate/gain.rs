@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::campaign::Campaign;
 use super::stack::{Row, Stack};
 use crate::experiment::{Observed, Scope, Target};
-use gumption_core::least_squares::Solution;
+use gumption_core::least_squares::{Solution, pseudo_inverse};
 
 /// Derivatives of the coefficients (parameters, then results), one row for each, one column for each
 /// observed value.
@@ -47,7 +47,7 @@ impl Gain {
     pub fn linear(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Option<Gain> {
         let campaign = stack.campaign;
         let jacobian = stack.jacobian(parameters, u);
-        let mut by_observed = jacobian.pseudo_inverse(1e-12).ok()?;
+        let mut by_observed = pseudo_inverse(jacobian, 1e-12)?;
         for (mut column, u) in by_observed.column_iter_mut().zip(u) {
             column /= *u;
         }

@@ -1,5 +1,6 @@
 //! What an experiment tells, and what it cannot: rank, condition, aliases.
 
+use gumption_core::least_squares::{axes, singular};
 use nalgebra::{DMatrix, DVector};
 
 use crate::experiment::Parameter;
@@ -126,10 +127,7 @@ impl Identifiability {
     /// From the Jacobian, its rows weighted.
     pub(super) fn of(jacobian: &DMatrix<f64>, parameters: &[Parameter]) -> Identifiability {
         let (scaled, lengths) = scaled(jacobian);
-        let singular = scaled.clone().svd(false, false).singular_values;
-        let largest = singular.max();
-        let smallest = singular.min();
-        let rank = singular.iter().filter(|s| **s > SINGULAR * largest).count();
+        let (rank, condition) = determined(&scaled);
         let mut near = Vec::new();
         if rank == parameters.len() {
             for place in 0..parameters.len() {
@@ -139,15 +137,38 @@ impl Identifiability {
         Identifiability {
             rank,
             parameters: parameters.len(),
-            condition: if rank < parameters.len() {
-                f64::INFINITY
-            } else {
-                largest / smallest
-            },
-            undetermined: combinations(jacobian, parameters),
+            condition,
+            undetermined: combinations(&scaled, &lengths, parameters, parameters.len() - rank),
             near,
         }
     }
+}
+
+/// How many parameters columns of length one determine, and their condition.
+fn determined(scaled: &DMatrix<f64>) -> (usize, f64) {
+    let Some(found) = singular(scaled.clone()) else {
+        return (0, f64::INFINITY);
+    };
+    let singular = found.singular_values;
+    let largest = singular.max();
+    let rank = singular.iter().filter(|s| **s > SINGULAR * largest).count();
+    let condition = match rank < scaled.ncols() {
+        true => f64::INFINITY,
+        false => largest / singular.min(),
+    };
+    (rank, condition)
+}
+
+/// The combinations of parameters that the readings do not determine, of which there is one at least: the solution failed.
+pub(super) fn undetermined(jacobian: &DMatrix<f64>, parameters: &[Parameter]) -> Vec<Combination> {
+    let (scaled, lengths) = scaled(jacobian);
+    let (rank, _) = determined(&scaled);
+    combinations(
+        &scaled,
+        &lengths,
+        parameters,
+        (parameters.len() - rank).max(1),
+    )
 }
 
 /// Columns of length one, and the lengths that they had.
@@ -164,18 +185,26 @@ fn scaled(jacobian: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
     (scaled, lengths)
 }
 
-/// The combinations of parameters that change no reading: the null space in reduced row echelon form, so
-/// that each combination is led by a parameter of its own.
-pub(super) fn combinations(jacobian: &DMatrix<f64>, parameters: &[Parameter]) -> Vec<Combination> {
+/// The combinations of parameters that change no reading, of which there are so many: the null space in reduced row echelon form,
+/// so that each combination is led by a parameter of its own.
+fn combinations(
+    scaled: &DMatrix<f64>,
+    lengths: &[f64],
+    parameters: &[Parameter],
+    missing: usize,
+) -> Vec<Combination> {
     let count = parameters.len();
-    let (scaled, lengths) = scaled(jacobian);
     // A square matrix has all right singular vectors, also where rows are fewer than columns.
-    let square = scaled.transpose() * &scaled;
-    let eigen = square.symmetric_eigen();
-    let largest = eigen.eigenvalues.max().max(f64::MIN_POSITIVE);
-    // Eigenvalues are squares of singular values.
-    let mut null: Vec<DVector<f64>> = (0..count)
-        .filter(|k| eigen.eigenvalues[*k] < 1e-13 * largest)
+    let Some(eigen) = axes(scaled.transpose() * scaled) else {
+        return Vec::new();
+    };
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+    order.truncate(missing);
+    // In the order in which they are found, so that the echelon form is the same however small they are.
+    order.sort_unstable();
+    let mut null: Vec<DVector<f64>> = order
+        .into_iter()
         .map(|k| eigen.eigenvectors.column(k).into_owned())
         .collect();
     let mut leads = Vec::new();
@@ -253,7 +282,7 @@ fn near_alias(
     }
     let target = scaled.column(place).into_owned();
     let basis = scaled.select_columns(&others);
-    let fit = basis.clone().svd(true, true).solve(&target, 1e-14).ok()?;
+    let fit = singular(basis.clone())?.solve(&target, 1e-14).ok()?;
     let remainder = (&target - &basis * &fit).norm();
     let inflation = 1.0 / remainder;
     if inflation.is_nan() || inflation <= INFLATION {

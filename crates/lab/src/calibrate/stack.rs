@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::campaign::Campaign;
-use super::identify::combinations;
+use super::identify::undetermined;
 use super::trouble::Trouble;
 use crate::experiment::Words;
 use crate::experiment::{Observed, Target};
 use gumption_core::least_squares::{
-    Errors, Failure, Problem, Response, Scale, Solution, Spread, solve,
+    Errors, Failure, Problem, Response, Scale, Solution, Spread, singular, solve,
 };
 
 /// One observed value: a response in a point, or what is known of a parameter beforehand.
@@ -282,7 +282,7 @@ impl<'e> Stack<'e> {
                     .unwrap_or_else(|_| vec![1.0; self.campaign.experiment.parameters.len()]);
                 let jacobian = self.jacobian(&at, &ones);
                 Trouble::Undetermined {
-                    combinations: combinations(&jacobian, &self.campaign.experiment.parameters),
+                    combinations: undetermined(&jacobian, &self.campaign.experiment.parameters),
                 }
             }
             Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
@@ -384,7 +384,7 @@ impl<'e> Stack<'e> {
             column /= *length;
         }
         let misfit = DVector::from_vec(misfit);
-        let solution = scaled.clone().svd(true, true).solve(&misfit, 1e-10).ok()?;
+        let solution = singular(scaled.clone())?.solve(&misfit, 1e-10).ok()?;
         for ((place, value), length) in free.iter().zip(solution.iter()).zip(&lengths) {
             start[*place] = value / length;
         }

@@ -1,8 +1,9 @@
 //! The prediction of a recording that the fit has not seen: by the declared model, and by the one with the
 //! adopted physics in it.
 
+use gumption_core::least_squares::axes;
 use gumption_core::special::{chi_squared_sf, f_sf};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{Extended, Following};
 use super::adopted::Adopted;
@@ -181,7 +182,9 @@ fn chi_squared(errors: &DVector<f64>, mut slopes: DMatrix<f64>, covariance: &DMa
     let correlation = DMatrix::from_fn(count, count, |a, b| {
         covariance[(a, b)] * scale[a] * scale[b]
     });
-    let axes = SymmetricEigen::new(correlation);
+    let Some(axes) = axes(correlation) else {
+        return errors.norm_squared();
+    };
     let lengths = axes.eigenvalues.map(|variance| variance.max(0.0).sqrt());
     let shared = slopes * axes.eigenvectors * DMatrix::from_diagonal(&lengths);
     // (1 + AAᵀ)⁻¹ = 1 − A (1 + AᵀA)⁻¹ Aᵀ

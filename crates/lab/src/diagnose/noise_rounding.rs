@@ -1,6 +1,7 @@
 //! Noise beside the rounding of readings: where they come in steps that are coarser than what is claimed of their noise, the
 //! claim cannot hold their rounding; noise that is estimated has it in it.
 
+use gumption_core::least_squares::singular;
 use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
 
@@ -280,9 +281,9 @@ fn of_fit(fit: &Fit, u: &DVector<f64>) -> DMatrix<f64> {
     let weighted = DMatrix::from_fn(slopes.nrows(), slopes.ncols(), |at, of| {
         slopes[(at, of)] / u[at]
     });
-    let svd = weighted.svd(true, false);
     // J·(JᵀWJ)⁻¹·Jᵀ in units of u: the left singular vectors span what is predicted.
-    let mut own = svd.u.unwrap_or_else(|| DMatrix::zeros(slopes.nrows(), 0));
+    let own = singular(weighted).and_then(|svd| svd.u);
+    let mut own = own.unwrap_or_else(|| DMatrix::zeros(slopes.nrows(), 0));
     for (at, mut row) in own.row_iter_mut().enumerate() {
         row *= u[at];
     }

@@ -22,10 +22,16 @@ pub(super) struct Absorbed {
 
 impl Absorbed {
     pub(super) fn by_parameters(fit: &Fit) -> Absorbed {
-        let slopes = &fit.jacobian;
+        let mut slopes = fit.jacobian.clone();
+        // Where the model has no value, as at inputs beyond those recorded, nothing is taken away.
+        for mut row in slopes.row_iter_mut() {
+            if !row.iter().all(|slope| slope.is_finite()) {
+                row.fill(0.0);
+            }
+        }
         let basis = match slopes.ncols() {
-            0 => slopes.clone(),
-            _ => evidence::span(slopes.clone(), LEAST),
+            0 => slopes,
+            _ => evidence::span(slopes, LEAST),
         };
         Absorbed::of(basis, fit.residuals.clone())
     }

@@ -1,6 +1,7 @@
 //! Models that are the length of a vector of readings, held against a magnitude that is recorded or known: a triad in a
 //! field, or at rest. Each reading is an output of its own; what disturbs an offset or a scale disturbs that of one of them, or of all.
 
+use gumption_core::least_squares::singular;
 use nalgebra::{DMatrix, DVector};
 
 use super::building::scoped_label;
@@ -42,7 +43,7 @@ impl Norm {
         }
         let slopes: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
         let slopes = DMatrix::from_columns(&slopes);
-        let centres = slopes.clone().svd(true, true).solve(&sum, ROUNDING).ok()?;
+        let centres = singular(slopes.clone())?.solve(&sum, ROUNDING).ok()?;
         let left = &slopes * &centres - sum;
         let is_norm = left.norm() <= ROUNDING * response.norm();
         let centre = |(column, centre): (usize, &f64)| {

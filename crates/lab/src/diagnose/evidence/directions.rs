@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::baseline::{Baseline, shares};
 
+use gumption_core::least_squares::pseudo_inverse;
 pub use gumption_core::least_squares::{span, without};
 
 /// A column with less than this share of its whitened length (squared) left, by the parameters or by
@@ -141,7 +142,7 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
         column *= *scale;
     }
     let nothing = || DMatrix::zeros(columns.ncols(), columns.nrows());
-    let mut inverse = unit.pseudo_inverse(FLAT).unwrap_or_else(|_| nothing());
+    let mut inverse = pseudo_inverse(unit, FLAT).unwrap_or_else(nothing);
     for (mut row, scale) in inverse.row_iter_mut().zip(&scales) {
         row *= *scale;
     }

@@ -1,7 +1,7 @@
 //! Atoms as directions in the space of z, and sets of them.
 
-use gumption_core::least_squares::products;
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use gumption_core::least_squares::{axes, products};
+use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::{Ladder, Scale, named, scatter};
 use super::directions::{INVISIBLE, joined, orthonormal, own, side_by_side, without};
@@ -380,7 +380,7 @@ pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
 /// Eigenvalues of MMᵀ from MᵀM, and the matrix that takes Mᵀx to the components of x along the
 /// directions.
 pub(super) fn principal(gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
-    let eigen = SymmetricEigen::new(gram);
+    let eigen = axes(gram)?;
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len())
         .filter(|k| eigen.eigenvalues[*k] > 1e-6)
         .collect();

@@ -5,6 +5,7 @@
 //! whose covariance matrix is the average of AAᵀ over all named atoms (each of unit length, candidates
 //! alike). A named set has to be better by far than this competitor, alone or with a part of the set.
 
+use gumption_core::least_squares::axes;
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
@@ -90,7 +91,9 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     let products = DMatrix::from_fn(coordinates.len(), coordinates.len(), |i, j| {
         coordinates[i].dot(&coordinates[j])
     });
-    let root = nalgebra::SymmetricEigen::new(products);
+    let Some(root) = axes(products) else {
+        return DMatrix::zeros(basis.nrows(), 0);
+    };
     let mut half = root.eigenvectors.clone();
     for (mut column, e) in half.column_iter_mut().zip(root.eigenvalues.iter()) {
         column *= e.max(0.0).sqrt();

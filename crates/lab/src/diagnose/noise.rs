@@ -107,6 +107,16 @@ impl Claimed {
         correlated.map_or(0.0, |correlated| correlated.log_prior) + self.tails.gain
     }
 
+    /// The same with standard uncertainties that are multiplied, each observation's by its own factor.
+    pub(super) fn times(self, factor: impl Fn(usize) -> f64) -> Claimed {
+        let times = |u: DVector<f64>| DVector::from_fn(u.len(), |at, _| factor(at) * u[at]);
+        Claimed {
+            u: times(self.u),
+            draws: self.draws.into_iter().map(times).collect(),
+            ..self
+        }
+    }
+
     /// The same with another correlation, and no doubt about it.
     pub fn with(&self, correlated: Option<Correlated>) -> Claimed {
         Claimed {

@@ -54,6 +54,7 @@
 //! | `plan` | without data: what an experiment can see and tell apart |
 //! | `separate` | which extra measurement tells rivals apart |
 //! | `against` | what speaks against candidates that the answer does not name |
+//! | `outputs` | what the rows of one output show by themselves |
 //! | `omitted` | what effects that are not adopted do to the uncertainty |
 
 #![allow(
@@ -80,6 +81,7 @@ mod look_alikes;
 mod noise;
 mod null;
 mod omitted;
+mod outputs;
 mod pairs;
 mod plan;
 mod question;
@@ -111,6 +113,7 @@ pub use grades::{Likeness, is_severe, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::{narrowed, omitted};
+pub use outputs::shrunk;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Chance, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;

@@ -103,6 +103,7 @@ impl<'i> Inquiry<'i> {
         let (design, fit) = (declared.seen, &declared.coarse.fit);
         let fitted = FittedModel::new(design, fit);
         let mut candidates = Candidates::new(fitted, &claimed, declared.white);
+        let claimed = of_each_output(&candidates, claimed, &settings)?;
         let part = part(progress, 0.0, 0.4);
         let answer = ask(&mut candidates, claimed.clone(), &settings, &part)?;
         // What the model leaves out may look like noise that grows.
@@ -417,6 +418,26 @@ fn ask(
             candidates.leave_out(&missized);
         }
     }
+}
+
+/// Noise that is estimated, of outputs of which each is tried by itself: what one of them shows alone is no noise of it.
+fn of_each_output(
+    candidates: &Candidates<'_>,
+    claimed: Claimed,
+    settings: &Settings,
+) -> Result<Claimed, Failure> {
+    let design = candidates.fitted.design;
+    let (outputs, each) = (design.case.responses.len(), design.blocks.len());
+    if outputs < 2 || !claimed.is_estimated() {
+        return Ok(claimed);
+    }
+    let baseline = baseline(design, candidates.fitted.fit, &claimed)?;
+    let question = candidates.question(&baseline, settings);
+    let rows = (0..outputs).map(|output| output * each..(output + 1) * each);
+    let rows: Vec<_> = rows.collect();
+    let factors = evidence::shrunk(&question, &rows, OF_NOISE * settings.alpha);
+    let of = |observation: usize| factors[design.place(observation).0];
+    Ok(claimed.times(of))
 }
 
 /// Progress between two shares of the whole.

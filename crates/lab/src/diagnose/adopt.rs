@@ -237,6 +237,8 @@ struct Extending {
     inside: BTreeMap<String, Vec<String>>,
     /// Effects on everything but constant terms.
     gains: Vec<String>,
+    /// Effects on everything.
+    factors: Vec<String>,
     /// Effects on the output.
     offsets: Vec<String>,
     /// Effects on the output that are parts of it.
@@ -254,6 +256,7 @@ impl Extending {
             before,
             inside: BTreeMap::new(),
             gains: Vec::new(),
+            factors: Vec::new(),
             offsets: Vec::new(),
             parts: Vec::new(),
         }
@@ -271,6 +274,7 @@ impl Extending {
             }
             Node::Output => self.offsets.push(product.to_owned()),
             Node::Gain => self.gains.push(product.to_owned()),
+            Node::Reading => self.factors.push(product.to_owned()),
             Node::Parameter(_) | Node::Column(_) => {
                 let on_name = self.inside.entry(fitted.name(term.node));
                 on_name.or_default().push(product.to_owned());
@@ -305,6 +309,9 @@ impl Extending {
                 [one] => format!(" + {one}*{signal}"),
                 several => format!(" + ({})*{signal}", several.join(" + ")),
             };
+        }
+        for factor in &self.factors {
+            last += &format!(" + {factor}*({right})");
         }
         for part in &self.parts {
             last += &format!(" + {part}*({right})/{}", self.left);

@@ -32,7 +32,7 @@ pub(super) fn missized(
             .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
             .any(|(size, u)| !effect.admits(size, u));
         let is_impossible = |variation: &Variation| {
-            let on_scale = variation.terms.iter().any(|term| term.node == Node::Gain);
+            let on_scale = variation.terms.iter().any(|term| term.node.is_scale());
             let takes_all = || {
                 let scales = scales(fitted, variation, &named.estimate, claimed);
                 takes_all(variation, named.estimate.as_slice(), &scales)
@@ -121,7 +121,7 @@ fn takes_all(variation: &Variation, sizes: &[f64], scales: &[f64]) -> bool {
     let mut changes: BTreeMap<Option<usize>, Vec<f64>> = BTreeMap::new();
     for (coefficient, term) in variation.numbered() {
         let size = sizes.get(coefficient).filter(|size| size.is_finite());
-        if let (Node::Gain, Some(size)) = (term.node, size) {
+        if let (true, Some(size)) = (term.node.is_scale(), size) {
             let values = &term.modifier.values;
             let of_response = changes.entry(term.response);
             let change = of_response.or_insert_with(|| vec![0.0; values.len()]);

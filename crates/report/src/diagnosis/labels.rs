@@ -18,7 +18,7 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 33] = [
+const FIXED: [(&str, &str); 34] = [
     ("with a constant", "含常数项"),
     ("about zero", "以零点为中心"),
     ("with its half", "含其半周期"),
@@ -44,6 +44,7 @@ const FIXED: [(&str, &str); 33] = [
     ("slowing down", "逐渐变缓"),
     ("bent", "弯曲"),
     ("all", "全部"),
+    ("of the whole reading", "整个读数"),
     ("each with a sensitivity of its own", "各有各的灵敏度"),
     ("each with a size of its own", "各有各的大小"),
     ("several widths", "多种宽度"),

@@ -46,6 +46,31 @@ pub(super) fn on_node(
     cell(fitted, id, node, along, all)
 }
 
+/// Forms of the scale as forms of all that is read, constant terms as well, as where readings were written in another unit; none
+/// where the model has no constant terms.
+pub(super) fn of_the_whole<'v>(
+    fitted: &FittedModel<'_>,
+    forms: impl IntoIterator<Item = &'v Variation>,
+) -> Vec<Variation> {
+    let mut responses = 0..fitted.case().responses.len();
+    if !responses.any(|one| !fitted.is_implicit(one) && !fitted.constant_terms(one).is_empty()) {
+        return Vec::new();
+    }
+    let whole = |form: &Variation| {
+        let terms = form.terms.iter().cloned();
+        let terms = terms.map(|term| Term {
+            node: Node::Reading,
+            ..term
+        });
+        Variation {
+            label: format!("{}, of the whole reading", form.label),
+            terms: terms.collect(),
+            ..form.clone()
+        }
+    };
+    forms.into_iter().map(whole).collect()
+}
+
 /// What a form is on some responses: on each of them alone, if there are others, and on all together.
 pub(super) fn scoped(
     fitted: &FittedModel<'_>,

@@ -60,7 +60,7 @@ impl Deviations {
                 let is_even = !varies(&fitted.slope(term.node, 0));
                 (is_part && is_even).then_some(Node::Output)
             }
-            Node::Output | Node::Parameter(_) => None,
+            Node::Output | Node::Reading | Node::Parameter(_) => None,
         }
     }
 }

@@ -21,10 +21,19 @@ pub enum Node {
     Output,
     /// Everything that the model gives besides constant terms.
     Gain,
+    /// Everything that the model gives: a factor of what is read.
+    Reading,
     /// A parameter.
     Parameter(usize),
     /// A column that the model uses.
     Column(usize),
+}
+
+impl Node {
+    /// Whether sizes on it are relative changes of what the model gives.
+    pub fn is_scale(self) -> bool {
+        matches!(self, Node::Gain | Node::Reading)
+    }
 }
 
 /// The fitted model, on which effects act.
@@ -127,6 +136,7 @@ impl<'f> FittedModel<'f> {
                 return parts.unwrap_or_else(|| vec![1.0; self.rows()]);
             }
             Node::Gain => return self.signal[response].clone(),
+            Node::Reading => return self.fit.linear.values[response].clone(),
             Node::Parameter(parameter) => parameter,
             Node::Column(column) => self.case().parameters.len() + column,
         };
@@ -204,6 +214,7 @@ impl<'f> FittedModel<'f> {
         match node {
             Node::Output => "offset".to_owned(),
             Node::Gain => "scale".to_owned(),
+            Node::Reading => "reading".to_owned(),
             Node::Parameter(parameter) => self.case().parameters[parameter].name.clone(),
             Node::Column(column) => self.case().columns[column].name.clone(),
         }

@@ -1,6 +1,6 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
-use super::building::{HIGHER, form, kinds, on_node, pair};
+use super::building::{HIGHER, form, kinds, of_the_whole, on_node, pair};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{flag, map, map2};
 use super::{Cell, EffectId, Modifier, Variation};
@@ -149,7 +149,16 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
     let forms = kinds([vec![all], alone, onwards]);
     let ids = [EffectId::LevelShift, EffectId::LevelScale];
     let nodes = fitted.offset_and_scale().into_iter().zip(ids);
-    let cells = nodes.map(|(node, id)| on_node(fitted, id, name, node, forms.clone()));
+    let cells = nodes.map(|(node, id)| {
+        let mut cell = on_node(fitted, id, name, node, forms.clone());
+        if node == Node::Gain {
+            // A run that is written in another unit.
+            let single = cell.variants.iter().filter(|form| form.coefficients() == 1);
+            let whole = of_the_whole(fitted, single);
+            cell.variants.extend(whole);
+        }
+        cell
+    });
     cells.collect()
 }
 

@@ -285,7 +285,7 @@ impl Term {
     pub fn unit_of_size(&self, case: &Case) -> Unit {
         let node = match self.node {
             Node::Output => case.responses[self.response.unwrap_or(0)].unit.clone(),
-            Node::Gain => Unit::one(),
+            Node::Gain | Node::Reading => Unit::one(),
             Node::Parameter(parameter) => case.parameters[parameter].unit.clone(),
             Node::Column(column) => case.columns[column].unit.clone(),
         };

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 
 use super::angles::runs;
-use super::building::{decay, form, on_node, on_output, timed, wave};
+use super::building::{decay, form, of_the_whole, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
@@ -161,13 +161,12 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
     let inside = (0..fitted.rows()).map(|row| flag((from..to).contains(&row)));
     let label = fitted.design.called(from, to - 1);
     let within = Modifier::number(inside.collect(), format!("[{label}]"));
-    Some(on_node(
-        fitted,
-        id,
-        along,
-        node,
-        [form(label, vec![within])],
-    ))
+    let mut cell = on_node(fitted, id, along, node, [form(label, vec![within])]);
+    if id == EffectId::StretchScale {
+        let whole = of_the_whole(fitted, &cell.variants);
+        cell.variants.extend(whole);
+    }
+    Some(cell)
 }
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes

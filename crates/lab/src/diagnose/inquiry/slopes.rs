@@ -2,9 +2,12 @@
 
 use std::cell::OnceCell;
 
+use nalgebra::DVector;
+
 use super::{Answer, BEST, Declared, Inquiry, ask, part};
 use crate::diagnose::candidates::{Candidates, baseline};
-use crate::diagnose::catalogue::FittedModel;
+use crate::diagnose::catalogue::modifiers::known;
+use crate::diagnose::catalogue::{FittedModel, Variation};
 use crate::diagnose::confirm::along;
 use crate::diagnose::design::Design;
 use crate::diagnose::evidence::{self, Atom, Fitted, Question, Shape};
@@ -12,6 +15,11 @@ use crate::diagnose::failure::Failure;
 use crate::diagnose::fit::{self, Fit};
 use crate::diagnose::noise::Claimed;
 use crate::diagnose::settled;
+
+/// Whether a change of the residuals, in units of the noise, is more than noise in all.
+fn is_seen(change: &DVector<f64>) -> bool {
+    change.norm() > 1.0 && change.iter().all(|x| x.is_finite())
+}
 
 /// The declared model at the parameters of a fit with effects in it, as the catalogue sees it.
 pub(super) struct Beside {
@@ -144,13 +152,14 @@ impl<'i> Inquiry<'i> {
             return None;
         }
         let done = &moved.residuals - &refit.residuals;
+        let turned = self.turned(found, &beside).component_div(&claimed.u);
         let base = Fit {
             residuals: &refit.residuals + along(&slopes, &done, &claimed.u),
             ..moved
         };
         let told = &self.fit.residuals - &self.fit.jacobian * (&base.unknowns - &self.fit.unknowns);
         let bent = (&base.residuals - told).component_div(&claimed.u);
-        if !(bent.norm() > 1.0 && bent.iter().all(|x| x.is_finite())) {
+        if !is_seen(&bent) && !is_seen(&turned) {
             return None;
         }
         let claimed = match self.is_open() {
@@ -158,5 +167,38 @@ impl<'i> Inquiry<'i> {
             false => claimed.clone(),
         };
         Some(Beside { base, claimed })
+    }
+
+    /// By how much the effects that were found, were they on another node of the model, would act otherwise beside the fit with
+    /// them in it: with constant terms that were far off, a factor of the reading looks like one of the signal.
+    fn turned(&self, found: &Fitted, beside: &FittedModel<'_>) -> DVector<f64> {
+        let (fit, claimed) = (beside.fit, &self.answer.claimed);
+        let mut most = DVector::zeros(fit.residuals.len());
+        let mut sizes = found.coefficients.iter().copied().map(known);
+        for atom in &found.atoms {
+            let own = self.candidates.variation(*atom);
+            let sizes: Vec<f64> = sizes.by_ref().take(own.coefficients()).collect();
+            let is_elsewhere = |other: &&Variation| {
+                let nodes = own.terms.iter().zip(&other.terms);
+                other.coefficients() == own.coefficients()
+                    && nodes.clone().any(|(own, other)| own.node != other.node)
+            };
+            for other in self
+                .candidates
+                .cell(*atom)
+                .variants
+                .iter()
+                .filter(is_elsewhere)
+            {
+                let acts = other.columns(beside) * DVector::from_column_slice(&sizes);
+                let so_far = other.columns(&self.candidates.fitted);
+                let slopes = evidence::all([fit.jacobian.clone(), so_far].into_iter());
+                let missing = &acts - along(&slopes, &acts, &claimed.u);
+                if missing.norm_squared() > most.norm_squared() {
+                    most = missing;
+                }
+            }
+        }
+        most
     }
 }

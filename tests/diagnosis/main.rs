@@ -25,6 +25,7 @@ mod limits;
 mod memory;
 mod noise;
 mod norms;
+mod outputs;
 mod published;
 mod reading;
 mod recordings;

@@ -144,18 +144,24 @@ pub(super) fn willink_hall(parts: &[(Vec<Vec<f64>>, f64)]) -> f64 {
     let mut total = vec![0.0; count * count];
     let mut sum = 0.0;
     for (vectors, dof) in parts {
-        let mut part = vec![0.0; count * count];
-        for i in 0..count {
-            for j in 0..count {
-                let products = vectors[i]
+        // Of hundreds of measurands a term mostly acts on a few.
+        let acts = |of: &usize| vectors[*of].iter().any(|x| *x != 0.0);
+        let active: Vec<usize> = (0..count).filter(acts).collect();
+        let mut part = vec![0.0; active.len() * active.len()];
+        for (row, i) in active.iter().enumerate() {
+            for (column, j) in active.iter().enumerate() {
+                let products = vectors[*i]
                     .iter()
-                    .zip(&vectors[j])
+                    .zip(&vectors[*j])
                     .map(|(a, b)| (a / size) * (b / size));
-                part[i * count + j] = products.sum();
-                total[i * count + j] += part[i * count + j];
+                let product: f64 = products.sum();
+                part[row * active.len() + column] = product;
+                total[i * count + j] += product;
             }
         }
-        sum += size_of_matrix(&part, count) / dof;
+        if dof.is_finite() {
+            sum += size_of_matrix(&part, active.len()) / dof;
+        }
     }
     size_of_matrix(&total, count) / sum
 }

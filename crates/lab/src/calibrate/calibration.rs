@@ -282,7 +282,8 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
         let mut change: f64 = 0.0;
         for (row, u) in stack.rows.iter().zip(&mut u) {
             if let Row::Reading { response, .. } = row {
-                let s = scatters.responses[*response].s;
+                let scatter = &scatters.responses[*response];
+                let s = scatter.s / scatter.unit;
                 change = change.max((s - 1.0).abs());
                 *u *= s;
             }
@@ -349,7 +350,11 @@ pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause
         .enumerate()
         .map(|(index, ((name, description, unit), value))| {
             let u = covariance[(index, index)].sqrt();
-            let dof = effective(&causes, index, u);
+            // What nothing acts on is exact: there is nothing to test.
+            let dof = match u > 0.0 {
+                true => effective(&causes, index, u),
+                false => f64::INFINITY,
+            };
             Coefficient {
                 name: name.clone(),
                 description: description.clone(),
@@ -358,7 +363,10 @@ pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause
                 u,
                 dof,
                 k: campaign.experiment.conventions.factor(dof),
-                p_value: 2.0 * student_t_sf((value / u).abs(), dof),
+                p_value: match u > 0.0 {
+                    true => 2.0 * student_t_sf((value / u).abs(), dof),
+                    false => f64::NAN,
+                },
             }
         })
         .collect();
@@ -401,7 +409,8 @@ fn residuals(
             .transpose()
             .dot(&gain.by_observed.column(index).rows(0, count));
         let free = (1.0 - leverage).max(0.0);
-        let s = scatters.responses[*response].s * u[index] * free.sqrt();
+        let scatter = &scatters.responses[*response];
+        let s = scatter.s * (u[index] / scatter.unit) * free.sqrt();
         let residual = solution.residuals[index];
         residuals.push(Residual {
             point: *point,

@@ -172,7 +172,7 @@ impl Residuals<'_> {
             .map(squares)
             .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]]);
         let (total, [whole, dof]) = (self.total(), squares(self.own));
-        // Parts have units of weight of their own only where the readings have weights, which are the same in both.
+        // Where the readings have weights, s is that of one of unit weight, in all parts alike.
         let inside = inside * total / whole;
         let beside = [total - inside, dof - inside_dof];
         let (f, p_value) = self.f_test([inside, inside_dof], beside)?;

@@ -28,9 +28,11 @@ pub struct ResponseScatter {
     pub readings: usize,
     /// Root of the mean square of the residuals, in the unit of the response.
     pub rms: f64,
-    /// Standard deviation of a reading from the residuals, √(Σr²/ν); of one of unit weight where the
+    /// Standard deviation of a reading from the residuals, √(Σr²/ν), in the unit of the response; of one of unit weight where the
     /// readings have weights. NaN for ν = 0.
     pub s: f64,
+    /// The standard uncertainty with which each of its rows was weighted, where all were alike; one where they have weights.
+    pub(super) unit: f64,
     /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
     pub dof: f64,
     /// Standard deviation of a reading by itself, in the same units.
@@ -296,6 +298,11 @@ impl Scatters {
                 .sum();
             let total = sum(u);
             let (own, own_dof, part) = own(total, by_stated, dof);
+            // Beside what is known of parameters, weights that are alike are those of the scatter itself.
+            let unit = match (campaign.weights, rows.first()) {
+                (Weights::Equal, Some(row)) => u[*row],
+                _ => 1.0,
+            };
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
             let expected: Vec<Expected> = (rows.iter())
                 .map(|row| {
@@ -311,9 +318,10 @@ impl Scatters {
                 response: quantity.name.clone(),
                 readings: rows.len(),
                 rms: (sum(&ones) / rows.len() as f64).sqrt(),
-                s: (total / dof).sqrt(),
+                s: unit * (total / dof).sqrt(),
+                unit,
                 dof,
-                own,
+                own: unit * own,
                 own_dof,
                 part,
                 test: (complete && dof > 0.0).then_some(()).and_then(|()| {
@@ -352,7 +360,7 @@ impl Scatters {
             let rows: Vec<usize> = (0..stack.rows.len()).filter(own).collect();
             let mut effects = gain.by_observed.select_columns(&rows);
             for (mut effect, row) in effects.column_iter_mut().zip(&rows) {
-                effect *= scatter.own * u[*row];
+                effect *= scatter.own * (u[*row] / scatter.unit);
             }
             Cause {
                 origin: Origin::Residuals {

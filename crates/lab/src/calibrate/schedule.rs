@@ -1,5 +1,7 @@
 //! The points of an experiment that is planned.
 
+use std::collections::HashMap;
+
 use super::points::{PointColumn, PointNames, Points};
 use crate::experiment::Words;
 use crate::experiment::checker::Checker;
@@ -98,17 +100,18 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
 
 fn labels(cells: &[Stated<Cell>]) -> Labels {
     let mut labels = Labels::default();
+    let mut known: HashMap<String, u32> = HashMap::new();
     for cell in cells {
         let text = match &cell.value {
             Cell::Text(text) => text.clone(),
             Cell::Number(number) => number.to_string(),
         };
-        let level = labels.levels.iter().position(|other| *other == text);
-        let level = level.unwrap_or_else(|| {
+        let next = u32::try_from(known.len()).unwrap_or(u32::MAX);
+        let level = *known.entry(text.clone()).or_insert_with(|| {
             labels.levels.push(text);
-            labels.levels.len() - 1
+            next
         });
-        labels.of_row.push(u32::try_from(level).unwrap_or(u32::MAX));
+        labels.of_row.push(level);
     }
     labels
 }

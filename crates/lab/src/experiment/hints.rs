@@ -17,8 +17,8 @@ pub static HINTS: Hints = Hints {
     list_of_amounts: say!("quantities that differ from row to row are columns of the recording"),
 };
 
-/// Wordings of former versions: the table, the key, and how it is written now.
-static FORMER: [(&str, &str, Said); 10] = [
+/// Wordings of former versions, and of reports: the table, the key, and how it is written.
+static OTHERWISE: [(&str, &str, Said); 12] = [
     (
         "an experiment",
         "scatter",
@@ -72,6 +72,20 @@ static FORMER: [(&str, &str, Said); 10] = [
         say!("write settle = …: a time, or rows where no column has the role \"time\""),
     ),
     (
+        "[[left_out]]",
+        "rows",
+        say!(
+            "write lines = […], which count from the top of the file: with one line of names, row 3 of a report stands in line 4"
+        ),
+    ),
+    (
+        "[[left_out]]",
+        "row",
+        say!(
+            "write lines = […], which count from the top of the file: with one line of names, row 3 of a report stands in line 4"
+        ),
+    ),
+    (
         "[noise]",
         "scatter",
         say!("write from = \"residuals\", \"dwells\" or \"stated\""),
@@ -100,10 +114,9 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
 }
 
 fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Said> {
-    let former = FORMER
-        .iter()
-        .find(|(place, word, _)| *place == table && *word == key);
-    former
+    let mut otherwise = OTHERWISE.iter();
+    otherwise
+        .find(|(place, word, _)| *place == table && *word == key)
         .map(|(_, _, now)| now.clone())
         .or_else(|| budget::unknown_key(key, table, known))
 }

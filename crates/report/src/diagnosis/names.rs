@@ -4,7 +4,7 @@ use crate::language::Language;
 use crate::number::percent;
 use gumption_fault::say;
 use gumption_lab::diagnose::case::Case;
-use gumption_lab::diagnose::catalogue::{Cell, Node, Words};
+use gumption_lab::diagnose::catalogue::{Cell, Node, Variation, Words};
 use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Diagnosis, Outlook};
 
@@ -59,18 +59,27 @@ impl<'a> Names<'a> {
         self.filled(cell, cell.effect.name.of(self.l))
     }
 
-    /// The name, and what distinguishes a candidate whose only variant has a label: the harmonic of an angle.
+    /// The name, and what distinguishes a candidate of which all variants have one label, or begin with one: the harmonic of an
+    /// angle, a stretch of rows.
     pub(super) fn full(self, cell: usize) -> String {
-        match self.cell(cell).variants.as_slice() {
+        let variants = self.cell(cell).variants.as_slice();
+        let head = |one: &Variation| one.label.split(", ").next().unwrap_or_default().to_owned();
+        match variants {
             [_] => self.variant((cell, 0)),
+            [first, others @ ..] if others.iter().all(|one| head(one) == head(first)) => {
+                self.with_label(cell, &head(first))
+            }
             _ => self.plain(cell),
         }
     }
 
     /// The name, and what distinguishes the variant.
     pub(super) fn variant(self, (cell, variation): (usize, usize)) -> String {
-        let label = self.cell(cell).variants[variation].short_label();
-        let (name, label) = (self.plain(cell), spoken(&label, self.l));
+        self.with_label(cell, &self.cell(cell).variants[variation].short_label())
+    }
+
+    fn with_label(self, cell: usize, label: &str) -> String {
+        let (name, label) = (self.plain(cell), spoken(label, self.l));
         match label.is_empty() {
             true => name,
             false => self.l.with_aside(&name, &label),

@@ -120,7 +120,7 @@ impl Parser<'_> {
                 f.label(say!(
                     "only a name, or `f(x, y)` with names, may stand left of `=`"
                 ))
-                .help(say!("write `name = expression`; to compare, write `==`"))
+                .help(say!("write `name = expression`"))
             })
         }
     }
@@ -130,7 +130,9 @@ impl Parser<'_> {
         let after = &self.text[token.span.clone()];
         let is_number = matches!(left.node, Node::Number { unit: None, .. });
         let help = if is_number && (self.is_unit)(after) {
-            say!("write `{before} * {after}`, or `{before} '{after}'` if {after} is the unit")
+            say!(
+                "write `{before} '{after}'` if {after} is the unit, or `{before} * {after}` for a product"
+            )
         } else {
             let shown = before
                 .rsplit([' ', '+', '-', '*', '/', ',', '('])

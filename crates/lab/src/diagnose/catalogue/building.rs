@@ -65,6 +65,8 @@ pub(super) fn of_the_whole<'v>(
         Variation {
             label: format!("{}, of the whole reading", form.label),
             terms: terms.collect(),
+            // Where both say the same, the simpler one is meant.
+            weight: HIGHER * form.weight,
             ..form.clone()
         }
     };

@@ -1,6 +1,7 @@
 //! Competitors without a name: smooth curves and levels that no physics explains. When one of them wins,
 //! the answer is "unexplained", and where.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use super::angles::{angles, turning};
@@ -28,8 +29,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let columns = fitted.numeric().into_iter().chain(angles(fitted));
     for column in columns.map(Some).chain([None]) {
         let (name, course) = fitted.course(column);
+        let course = evened(course);
         for node in &nodes {
-            cells.extend(smooth(fitted, *node, &name, course));
+            cells.extend(smooth(fitted, *node, &name, &course));
         }
     }
     for column in fitted.numeric() {
@@ -75,6 +77,22 @@ pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
 pub(in crate::diagnose) fn wandering_scale(fitted: &FittedModel<'_>) -> Cell {
     let (id, along) = (EffectId::WanderingScale, fitted.along_time());
     generic(fitted, id, Node::Gain, &along, &[&[]])
+}
+
+/// A course as it is, or in the order of its values where half of them lie within the shortest half wave that smooth curves have:
+/// over decades, a curve among the small ones would not be seen.
+fn evened(course: &[f64]) -> Cow<'_, [f64]> {
+    let levels = levels_of(course);
+    let (least, most) = range(course);
+    let is_crowded =
+        |half: &[f64]| half[half.len() - 1] - half[0] < (most - least) / COSINES as f64;
+    match levels.len() > 2 * COSINES && levels.windows(levels.len() / 2).any(is_crowded) {
+        true => {
+            let place = |x: f64| levels.partition_point(|level| *level < x) as f64;
+            Cow::Owned(map(course, place))
+        }
+        false => Cow::Borrowed(course),
+    }
 }
 
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.

@@ -151,7 +151,7 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
     let nodes = fitted.offset_and_scale().into_iter().zip(ids);
     let cells = nodes.map(|(node, id)| {
         let mut cell = on_node(fitted, id, name, node, forms.clone());
-        if node == Node::Gain {
+        if node == Node::Gain && factor.column.role == Role::Run {
             // A run that is written in another unit.
             let single = cell.variants.iter().filter(|form| form.coefficients() == 1);
             let whole = of_the_whole(fitted, single);

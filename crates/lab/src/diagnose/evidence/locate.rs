@@ -54,8 +54,9 @@ pub fn locate(baseline: &Baseline, cells: &[Cell], settings: &Settings) -> Vec<L
     }
     let (mut seen, whole) = baseline.visible(&columns);
     let lengths: Vec<f64> = seen.column_iter().map(|c| c.norm_squared()).collect();
+    let most: Vec<f64> = cells.iter().map(|cell| cell.column.amax()).collect();
     let visible: Vec<usize> = (0..cells.len())
-        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] * whole[*c] && excited(cells, *c))
+        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] * whole[*c] && excited(cells, &most, *c))
         .collect();
     for cell in &visible {
         seen.column_mut(*cell)
@@ -87,10 +88,11 @@ pub fn locate(baseline: &Baseline, cells: &[Cell], settings: &Settings) -> Vec<L
 
 /// Whether a cell has an effect beside those of the same quantity at other levels: cos 90° is not quite
 /// zero in a computer.
-fn excited(cells: &[Cell], cell: usize) -> bool {
-    let same = cells.iter().filter(|c| c.node == cells[cell].node);
-    let greatest = same.map(|c| c.column.amax()).fold(0.0, f64::max);
-    cells[cell].column.amax() > ROUNDING * greatest
+fn excited(cells: &[Cell], most: &[f64], cell: usize) -> bool {
+    let all = cells.iter().zip(most);
+    let same = all.filter(|(other, _)| other.node == cells[cell].node);
+    let greatest = same.map(|(_, most)| *most).fold(0.0, f64::max);
+    most[cell] > ROUNDING * greatest
 }
 
 /// The greatest statistic of all cells in simulated recordings without a disturbance.

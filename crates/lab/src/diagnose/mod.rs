@@ -26,7 +26,7 @@
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise`, `noise_claims` | what is known about the noise of every row; what the case claims about it |
-//! | `replicates`, `noise_growth`, `noise_labels`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, or is correlated in time |
+//! | `replicates`, `noise_growth`, `noise_labels`, `noise_outputs`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, goes together in several outputs, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -84,6 +84,7 @@ mod noise_correlation;
 mod noise_growth;
 mod noise_labels;
 mod noise_laws;
+mod noise_outputs;
 mod noise_rounding;
 mod noise_scale;
 mod omitted;
@@ -121,6 +122,7 @@ pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
 pub use noise_growth::{Growth, Quantity};
 pub use noise_labels::ByLabel;
+pub use noise_outputs::Together;
 pub use noise_rounding::{Rounding, Unrounded};
 pub use omitted::Omitted;
 pub use parts::Confirmation;

@@ -11,6 +11,7 @@ use super::fit::Fit;
 use super::noise_correlation::{Correlated, Memory};
 use super::noise_growth::Growth;
 use super::noise_labels::ByLabel;
+use super::noise_outputs::Together;
 use super::noise_rounding::{self, Rounded, Rounding, Unrounded};
 use super::reduced::reduced;
 
@@ -36,6 +37,8 @@ pub struct Claimed {
     /// Probability that replicates scatter as unevenly from group to group by chance, where it is so small
     /// that the claim does not describe them.
     pub uneven: Option<f64>,
+    /// Outputs whose errors in the same row go together, although they count as independent.
+    pub together: Option<Together>,
     /// How heavy their tails are, where the size of the noise is estimated.
     pub tails: Tails,
     /// The rounding of the readings in `u` and `correlated`, where readings of the same input have it in common or the claim is
@@ -55,6 +58,7 @@ impl Claimed {
             by_label: Vec::new(),
             draws: Vec::new(),
             uneven: None,
+            together: None,
             tails: Tails::default(),
             rounding: None,
         }

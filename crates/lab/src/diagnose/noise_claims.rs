@@ -124,6 +124,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
         by_label: Vec::new(),
         draws: (0..draws.unwrap_or(0)).filter_map(draw).collect(),
         uneven: uneven.reduce(f64::min),
+        together: None,
         tails: Tails::default(),
         rounding: None,
     })

@@ -17,6 +17,7 @@ use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Answer, Declared, IfIndependent, Inquiry};
 use super::noise::Claimed;
+use super::noise_outputs;
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
 use super::settled;
@@ -159,6 +160,12 @@ pub fn diagnose(
     let accounts = accounts::accounts(&candidates, &baseline, &settings, &examination);
     let atoms = candidates.atoms.iter();
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
+    let last = adopted.as_ref().map_or(&fit, |adopted| &adopted.fit);
+    let together = noise_outputs::together(&design, last, &claimed);
+    let claimed = Claimed {
+        together,
+        ..claimed
+    };
     Ok(Diagnosis {
         examination,
         if_independent,

@@ -60,6 +60,19 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
         + &memory(claimed, l)
         + &tails(claimed, l)
         + &uneven(claimed, l)
+        + &together(case, claimed, l)
+}
+
+/// That errors of two outputs are not independent.
+fn together(case: &Case, claimed: &Claimed, l: Language) -> String {
+    let Some(together) = &claimed.together else {
+        return String::new();
+    };
+    let [one, other] = together
+        .outputs
+        .map(|output| case.responses[output].name.as_str());
+    let (r, p) = (significant(together.correlation, 2), p_is(together.p));
+    say!("; what is left of {one} and {other} in a row goes together (r = {r}, {p}): their errors count as independent, so that what is named may be noise that they share").in_language(l)
 }
 
 /// The rounding of readings, where a claim does not hold it or it is a part of what is estimated.

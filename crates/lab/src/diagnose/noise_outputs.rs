@@ -2,11 +2,10 @@
 //! diagnosis takes them as independent; where they are not, it has less to go by than it thinks.
 
 use gumption_core::special::student_t_sf;
-use nalgebra::DVectorView;
+use nalgebra::{DVector, DVectorView};
 
 use super::design::Design;
 use super::fit::Fit;
-use super::noise::Claimed;
 
 /// Two outputs whose residuals go together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,10 +23,11 @@ pub struct Together {
 /// Probability from which on it is told.
 const TOLD: f64 = 0.01;
 
-/// The two outputs whose residuals go together most, where they do beyond chance.
-pub(super) fn together(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Option<Together> {
+/// The two outputs whose residuals, over the standard uncertainties of the observations, go together most, where they do beyond
+/// chance.
+pub(super) fn together(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<Together> {
     let (outputs, each) = (design.case.responses.len(), design.blocks.len());
-    let left = fit.residuals.component_div(&claimed.u);
+    let left = fit.residuals.component_div(u);
     let of = |output: usize| left.rows(output * each, each);
     let dof = each as f64 - fit.unknowns.len() as f64 / outputs as f64 - 1.0;
     let pairs = (0..outputs).flat_map(|one| (0..one).map(move |other| [other, one]));
@@ -55,7 +55,6 @@ fn correlation(one: &DVectorView<'_, f64>, other: &DVectorView<'_, f64>) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::DVector;
 
     #[test]
     fn residuals_that_are_alike_go_together() {

@@ -161,7 +161,7 @@ pub fn diagnose(
     let atoms = candidates.atoms.iter();
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     let last = adopted.as_ref().map_or(&fit, |adopted| &adopted.fit);
-    let together = noise_outputs::together(&design, last, &claimed);
+    let together = noise_outputs::together(&design, last, &claimed.u);
     let claimed = Claimed {
         together,
         ..claimed

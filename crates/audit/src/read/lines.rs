@@ -9,7 +9,7 @@ use crate::printed::{Place, Printed, leading};
 use crate::sheet::Grid;
 use crate::units;
 
-use super::{footer, notes, prose, result_unit, words, wrapped};
+use super::{counts, footer, notes, prose, result_unit, words, wrapped};
 
 /// A line of text beside a table.
 #[derive(Debug, Clone)]
@@ -333,7 +333,7 @@ fn footnote(text: &str, claimed: &Claimed) -> Option<usize> {
 
 /// The row that a line is about: the one whose symbol or name comes first in it, or whose number it gives.
 fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
-    let numbered = words::count_after(lower, &["row", "note to row", "line", "第"])
+    let numbered = counts::count_after(lower, &["row", "note to row", "line", "第"])
         .filter(|_| lower.contains("row") || lower.contains('行') || lower.contains('项'));
     if let Some(n) = numbered
         && n >= 1.0

@@ -7,6 +7,8 @@
 //! | `blocks` | tables that are blocks of one budget |
 //! | `by_type` | tables with a column of figures for each type of evaluation |
 //! | `columns` | what a column is, by its head |
+//! | `counts` | whole numbers that count something in texts |
+//! | `coverage` | what a sheet says of its coverage |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
 //! | `converter` | the step of a converter, from its bits and range |
@@ -33,6 +35,8 @@ mod blocks;
 mod by_type;
 mod columns;
 mod converter;
+mod counts;
+mod coverage;
 mod footer;
 mod formulas;
 mod kind;
@@ -53,15 +57,14 @@ mod words;
 mod wrapped;
 
 pub use columns::Role;
+pub(crate) use counts::count_before;
+pub(crate) use coverage::{probability_of_factor, usual_levels};
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
-pub(crate) use notes::{probability_of_factor, usual_levels};
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
-pub(crate) use words::{
-    count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
-};
+pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, symbol_at};
 
 use std::ops::Range;
 

@@ -6,8 +6,9 @@ use crate::claim::{Row, Stated};
 use crate::printed::{Printed, leading};
 use crate::units;
 
+use super::counts::count_after;
 use super::kind;
-use super::words::{count_after, figure_after, has};
+use super::words::{figure_after, has};
 
 /// Numbers behind one another in a text, with nothing but marks, `and` and one unit between them; the longest such run.
 pub(crate) fn listed(text: &str) -> Vec<f64> {

@@ -2,7 +2,8 @@
 
 use crate::claim::{Stated, range_factor};
 use crate::printed::Printed;
-use crate::read::words::{count_after, count_before, figure_after, find, has, trailing_count};
+use crate::read::counts::{count_after, count_before, trailing_count};
+use crate::read::words::{figure_after, find, has};
 
 use super::evidence::Evidence;
 use super::family::*;

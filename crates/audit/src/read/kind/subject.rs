@@ -1,6 +1,7 @@
 //! What the words of a row are about: which kind of knowledge they state.
 
-use crate::read::words::{count_before, find, has, trailing_count};
+use crate::read::counts::{count_before, trailing_count};
+use crate::read::words::{find, has};
 
 use super::evidence::Evidence;
 use super::family::*;

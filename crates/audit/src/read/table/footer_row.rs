@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use crate::claim::{Claimed, Understood};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{self, Role};
+use crate::read::coverage;
 use crate::read::footer::{self, Whole};
 use crate::read::notes;
 use crate::read::words::has;
@@ -185,7 +186,7 @@ impl Reading<'_> {
         match footer::label(text, &self.around.measurand).or_else(of_force) {
             Some(whole) => self.label(whole, text),
             // `k | p = 95 %, t-distribution | 2.03`
-            None if self.is_open(Whole::Factor) => notes::rule_of_label(text, self.claimed),
+            None if self.is_open(Whole::Factor) => coverage::rule_of_label(text, self.claimed),
             None => {}
         }
     }
@@ -203,7 +204,7 @@ impl Reading<'_> {
             understood(self.claimed, place, text, *first);
         }
         if here.contains(&Whole::Factor) {
-            notes::rule_of_reason(text, self.claimed);
+            coverage::rule_of_reason(text, self.claimed);
         }
         // `U | Expanded uncertainty | k = 2 | 0.056`: U is still open behind its k.
         let own = footer::label(text, measurand).filter(|own| here.contains(own));
@@ -221,7 +222,7 @@ impl Reading<'_> {
         }
         let unit = match whole {
             Whole::Factor => {
-                notes::rule_of_label(text, self.claimed);
+                coverage::rule_of_label(text, self.claimed);
                 String::new()
             }
             Whole::Freedom => String::new(),

@@ -1,0 +1,198 @@
+//! What a sheet says of its coverage: how k is found, and for which probability.
+
+use crate::claim::{Claimed, Coverage};
+use crate::printed::leading;
+
+use super::footer;
+use super::words::{figure_after, has, named_probability};
+
+/// The rule for k, where the line states one.
+pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
+    let about = has(
+        lower,
+        &[
+            "coverage factor",
+            "包含因子",
+            "k from",
+            "k is",
+            "k =",
+            "k=",
+            "u = k",
+            "取k",
+            "k取",
+            "k_p",
+            "t-distribution",
+            "t distribution",
+            "t分布",
+            "t 分布",
+            "rule for k",
+        ],
+    );
+    let certificate = has(lower, &["certificate", "cert.", "证书", "calibrat"]);
+    // A line of nothing but `k = 2.13` is the claim.
+    let bare = lower
+        .strip_prefix('k')
+        .and_then(|rest| rest.trim_start().strip_prefix('='))
+        .is_some_and(|rest| rest.trim().parse::<f64>().is_ok());
+    if bare || footer::divides_by_factor(lower) {
+        return false;
+    }
+    if !about || certificate {
+        return false;
+    }
+    if has(lower, &["1.65", "1,65"])
+        && has(
+            lower,
+            &["rect", "rectang", "矩形", "均匀", "dominat", "dominant"],
+        )
+    {
+        let conditions = ["where", "if", "when", "whenever", "若", "如果", "当", "时"];
+        claimed.coverage = if has(lower, &conditions) {
+            Coverage::Rectangle
+        } else {
+            Coverage::OfRectangle
+        };
+        return true;
+    }
+    if claimed.coverage != Coverage::Unstated {
+        return false;
+    }
+    let by_freedom = has(
+        lower,
+        &["effective degrees", "ν_eff", "veff", "νeff", "有效自由度"],
+    );
+    // `ν_eff = 35, k = 2, U = 0.05` claims figures and states no rule.
+    let statement = footer::states_figures(lower);
+    let regardless = has(lower, &["regardless", "k = 2 is used", "不论"]);
+    if (names_student(lower) || by_freedom && !statement) && !regardless {
+        claimed.coverage = Coverage::StudentT(probability(lower).unwrap_or(0.95));
+        return true;
+    }
+    if statement {
+        return false;
+    }
+    match figure_after(lower, &["coverage factor", "包含因子", "k"]) {
+        Some(k) if (1.0..5.0).contains(&k.value) => {
+            claimed.coverage = Coverage::Fixed(k.value);
+            // A sentence of the statement claims its factor, too.
+            true
+        }
+        _ => false,
+    }
+}
+
+/// The rule that the label of a coverage factor states: `k (t, 95 %)`. What it says of a probability is said of the whole.
+pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
+    let lower = text.to_lowercase();
+    if named_probability(&lower).is_some() {
+        claimed.words.push_str(text);
+        claimed.words.push('\n');
+    }
+    let by_t = has(&lower, &["t", "student", "t分布", "t95", "t_95"]);
+    if by_t && claimed.coverage == Coverage::Unstated {
+        claimed.coverage = Coverage::StudentT(probability(&lower).unwrap_or(0.95));
+    }
+}
+
+/// The rule that a coverage factor states with its reason: `k = 1.65 (rectangular distribution, dominated by V)`, `k = 1.83
+/// (trapezoidal distribution, dominated by V and R)`, `k = 2 (fixed)`, `k = 2.23 (t-distribution, ν = 10, p = 95 %)`.
+pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
+    let lower = text.to_lowercase();
+    let is_reason = has(
+        &lower,
+        &["dominat", "fixed", "占优", "主导", "约定值", "固定"],
+    );
+    let k = figure_after(&lower, &["k"]).filter(|k| is_reason && (1.0..5.0).contains(&k.value));
+    if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {
+        claimed.coverage = match k.value {
+            1.65 => Coverage::OfRectangle,
+            k => Coverage::Fixed(k),
+        };
+    }
+    if names_student(&lower) {
+        rule_of_label(text, claimed);
+    }
+}
+
+/// Whether a text says that k is a quantile of t.
+fn names_student(lower: &str) -> bool {
+    let by_words = has(
+        lower,
+        &[
+            "student",
+            "t-distribution",
+            "t distribution",
+            "t分布",
+            "t 分布",
+            "t(",
+            "t_p",
+            "t_95",
+            "t95",
+            "t-table",
+            "t table",
+            "t值",
+            "t factor",
+            "from t",
+            "t-factor",
+            "t 值",
+        ],
+    );
+    by_words || bracket_behind(lower, "k").is_some_and(|why| has(why, &["t", "student"]))
+}
+
+/// What stands in round brackets behind the figure of a key: `t, 95 %` in `k = 2.31 (t, 95 %)`.
+fn bracket_behind<'t>(lower: &'t str, key: &str) -> Option<&'t str> {
+    lower.match_indices(key).find_map(|(at, _)| {
+        let is_name = !lower[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let figure = lower[at + key.len()..].trim_start().strip_prefix('=')?;
+        let (_, behind) = leading(figure.trim_start()).filter(|_| is_name)?;
+        let inside = behind.trim_start().strip_prefix(['(', '（'])?;
+        Some(inside.split([')', '）']).next().unwrap_or(inside))
+    })
+}
+
+/// The coverage probability that a sheet states behind its k: `k = 2.92 (99 %)`.
+pub(crate) fn probability_of_factor(words: &str) -> Option<f64> {
+    let mut lines = words.lines().map(str::to_lowercase);
+    lines.find_map(|line| named_probability(bracket_behind(&line, "k")?))
+}
+
+/// The probabilities that k may have where no rule is stated. Who says 95.45 % of the coverage, and nowhere 95 %, does not mean
+/// that; 95 % may be rounded from the other one (EA-4/02, E).
+pub(crate) fn usual_levels(words: &str) -> impl Iterator<Item = f64> {
+    let lines = words.lines().map(str::to_lowercase);
+    let is_of_coverage = |line: &String| {
+        has(line, &["coverage", "confidence", "包含", "置信", "k", "u"])
+            && !has(line, &["certificate", "cert.", "证书"])
+    };
+    let levels = lines
+        .filter(is_of_coverage)
+        .filter_map(|line| named_probability(&line));
+    let levels: Vec<f64> = levels.collect();
+    let is_exact = levels.contains(&0.9545) && !levels.contains(&0.95);
+    [0.95, 0.9545]
+        .into_iter()
+        .filter(move |p| !is_exact || *p == 0.9545)
+}
+
+/// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
+fn probability(lower: &str) -> Option<f64> {
+    index_of_t(lower).or_else(|| named_probability(lower))
+}
+
+/// The probability that a factor has as its index.
+fn index_of_t(lower: &str) -> Option<f64> {
+    let factors = lower.match_indices(['t', 'k']).filter(|(at, _)| {
+        let before = lower[..*at].chars().next_back();
+        !before.is_some_and(char::is_alphanumeric)
+    });
+    let of = |(at, _): (usize, &str)| {
+        let index = lower[at + 1..].trim_start_matches(['_', '{', '(']);
+        let (figure, _) =
+            leading(index).filter(|_| index.starts_with(|c: char| c.is_ascii_digit()))?;
+        [figure.value / 100.0, figure.value]
+            .into_iter()
+            .find(|p| (0.5..1.0).contains(p))
+    };
+    factors.filter_map(of).next()
+}

@@ -47,7 +47,7 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
         found.explanations.clear();
         found.gaps.clear();
     }
-    if !are_possible(&claimed.correlations, claimed.rows.len()) || shares_sources(claimed) {
+    if !are_possible(&claimed.correlations) || shares_sources(claimed) {
         // What correlates the rows is not known, and a slip that makes up for it would be none.
         found.explanations.retain(|found| found.acts.is_empty());
         if found.explanations.is_empty() && found.gaps.is_empty() {

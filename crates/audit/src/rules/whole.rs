@@ -205,7 +205,7 @@ pub(super) fn not_a_matrix(seen: &Seen<'_>) -> Vec<Hit> {
     if let Some(pair) = beyond {
         return one(format!("r = {}", pair.r));
     }
-    when(!are_possible(pairs, seen.claimed.rows.len()), || "r".into())
+    when(!are_possible(pairs), || "r".into())
 }
 
 /// Rows that name the same certificate, and are not correlated.

@@ -3,11 +3,11 @@
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
 
-use crate::calculate::Case;
 use crate::claim::Claimed;
 use crate::import;
 use crate::programs;
 use crate::read::{self, Mapping};
+use crate::search::search;
 use crate::sheet::{self, Grid, Unreadable};
 
 /// Every claimed budget of a file.
@@ -89,7 +89,8 @@ pub fn budget_files(
         }
         None => {
             let claims = read::budgets(&sheets(name, bytes)?, mapping);
-            let file = |claimed: &Claimed| import::budget_file(&Case::of(claimed), language);
+            // The rule for k is that of the audit, which the claimed figures may show.
+            let file = |claimed: &Claimed| import::budget_file(&search(claimed).case, language);
             Ok(claims.iter().map(file).collect())
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::calculate::Case;
+use crate::calculate::{Case, Factor, Freedom, t};
 use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
@@ -17,7 +17,7 @@ pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
     let names = names(claimed);
     let mut text = String::new();
     let _ = writeln!(text, "title = {}", quoted(&title(&claimed.title, language)));
-    text += &conventions(claimed, language);
+    text += &conventions(case, language);
     let measurand = identifier(&claimed.measurand, "y");
     let unit = unit_of_result(claimed);
     // A model needs the estimates of all its inputs; without them, contributions are added.
@@ -102,27 +102,53 @@ fn remark(said: Said, language: Language) -> String {
     format!("# {}\n", comment(&said.in_language(language)))
 }
 
-fn conventions(claimed: &Claimed, language: Language) -> String {
-    let mut lines = Vec::new();
-    match claimed.coverage {
-        Coverage::Fixed(k) => lines.push(format!("coverage_factor = {k:?}")),
-        Coverage::StudentT(p) => {
-            lines.push(format!("coverage_probability = {p}"));
-            lines.push("coverage_factor_from = \"t\"".into());
-        }
-        Coverage::Rectangle | Coverage::OfRectangle => {
-            lines.push("output_distribution = \"dominant\"".into())
-        }
-        Coverage::Unstated => {
-            let open = remark(say!("The sheet states no rule for k."), language);
-            lines.push(format!("{open}coverage_factor = 2.0"));
-        }
-    }
-    match claimed.rounding {
+fn conventions(case: &Case<'_>, language: Language) -> String {
+    let mut lines = vec![coverage(case, language)];
+    match case.claimed.rounding {
         RoundingStated::Up => lines.push("rounding = \"up\"".into()),
         RoundingStated::Nearest | RoundingStated::Unstated => {}
     }
     format!("\n[conventions]\n{}\n", lines.join("\n"))
+}
+
+/// The rule for k with which the sheet is recomputed.
+fn coverage(case: &Case<'_>, language: Language) -> String {
+    let fixed = |k: f64| format!("coverage_factor = {k:?}");
+    let open = match states_rule(case) {
+        true => String::new(),
+        false => remark(say!("The sheet states no rule for k."), language),
+    };
+    let rule = match (case.claimed.coverage, case.right.factor, case.right.freedom) {
+        (Coverage::OfRectangle, ..) | (_, Factor::Rectangle, _) => {
+            "output_distribution = \"dominant\"".into()
+        }
+        (_, Factor::Fixed(k), _) => fixed(k),
+        // The inputs of the file do not give what the sheet states of the whole.
+        (_, Factor::StudentT(p), Freedom::Given(nu)) | (_, Factor::At(p, nu), _) => {
+            let of_freedom = say!("k is that of ν_eff = {nu}, which the sheet states.");
+            let k = libm::round(100.0 * t(p, case.right.whole(nu))) / 100.0;
+            remark(of_freedom, language) + &fixed(k)
+        }
+        (_, Factor::StudentT(p), _) => {
+            format!("coverage_probability = {p}\ncoverage_factor_from = \"t\"")
+        }
+    };
+    open + &rule
+}
+
+/// Whether the sheet says how k is found: by a rule, by k itself, or by the probability beside it.
+fn states_rule(case: &Case<'_>) -> bool {
+    let claimed = case.claimed;
+    let k = claimed.footer.k.as_ref();
+    match case.right.factor {
+        _ if claimed.coverage != Coverage::Unstated => true,
+        Factor::Fixed(factor) => k.is_some_and(|k| k.is_met_by(factor)),
+        Factor::StudentT(p) => {
+            let unusual = crate::read::unusual_level(claimed);
+            crate::read::names_level(&claimed.words, p) || unusual == Some(p)
+        }
+        Factor::At(..) | Factor::Rectangle => false,
+    }
 }
 
 fn unit_of_result(claimed: &Claimed) -> String {

@@ -468,6 +468,7 @@ pub(crate) fn clean(text: &str) -> String {
             '．' => '.',
             '／' => '/',
             'μ' => 'µ',
+            '≅' | '≃' | '≒' | '≌' => '≈',
             '０'..='９' => char::from_digit(c as u32 - '０' as u32, 10).unwrap_or(c),
             'Ａ'..='Ｚ' | 'ａ'..='ｚ' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
             c => c,

@@ -4,12 +4,12 @@ use gumption_core::quantity::Unit;
 
 use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::printed::Printed;
-use crate::read::{probability_of_factor, usual_levels};
+use crate::read::{probability_of_factor, unusual_level, usual_levels};
 use crate::units;
 
-use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
+use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report, t};
 use super::model::{
-    Differentiated, differentiate, relative_to_estimate, unit_of_estimate, unit_of_y,
+    Differentiated, differentiate, relative_to_estimate, unit_of_estimate, unit_of_y, unit_of_zero,
 };
 
 /// What is known, computed once.
@@ -37,7 +37,7 @@ impl<'a> Case<'a> {
     /// The right calculation of what is claimed.
     pub fn of(claimed: &'a Claimed) -> Case<'a> {
         let mut unknown_slopes = vec![false; claimed.rows.len()];
-        let mut by_units = false;
+        let (mut by_units, mut is_converted) = (false, false);
         let mut second_order = None;
         let mut of_model = vec![false; claimed.rows.len()];
         let (derivatives, y, trouble) = match differentiate(claimed) {
@@ -45,7 +45,7 @@ impl<'a> Case<'a> {
                 let slopes = in_unit_of_result(claimed, &known);
                 of_model.clone_from(&known.of_model);
                 unknown_slopes = known.unknown;
-                by_units = known.by_units;
+                (by_units, is_converted) = (known.by_units, known.is_converted);
                 second_order = known.second_order;
                 (Some(slopes), known.y, None)
             }
@@ -55,7 +55,11 @@ impl<'a> Case<'a> {
         let lines = claimed.rows.iter().enumerate().map(|(i, row)| {
             // What stands in for a slope that the model does not give is the laboratory's coefficient.
             let own = derivatives.as_ref().filter(|_| of_model[i]);
-            line(claimed, row, own.map(|d| d[i]))
+            let slope = own.map(|d| Slope {
+                value: d[i],
+                is_converted,
+            });
+            line(claimed, row, slope)
         });
         let mut right = Calculation {
             lines: lines.collect(),
@@ -162,25 +166,55 @@ pub fn factors(claimed: &Claimed) -> Vec<Factor> {
         Coverage::StudentT(p) => vec![Factor::StudentT(p)],
         Coverage::Rectangle => vec![Factor::Rectangle],
         Coverage::OfRectangle => vec![Factor::Fixed(1.65)],
-        Coverage::Unstated => {
-            let mut rules = vec![Factor::Fixed(2.0)];
-            rules.extend(usual_levels(&claimed.words).map(Factor::StudentT));
-            let usual = claimed
-                .footer
-                .k
-                .as_ref()
-                .map(|k| k.value)
-                .filter(|k| [1.96, 3.0, 2.58, 1.65].contains(k));
-            if let Some(k) = usual {
-                rules.insert(0, Factor::Fixed(k));
-            }
-            rules.extend(probability_of_factor(&claimed.words).map(Factor::StudentT));
-            rules
-        }
+        Coverage::Unstated => match unusual_level(claimed) {
+            Some(level) => factors_of(level, claimed),
+            None => usual_factors(claimed),
+        },
     }
 }
 
-fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
+/// The rules for k where the sheet states a probability: t, and the fixed factor of its statement that covers as much.
+fn factors_of(level: f64, claimed: &Claimed) -> Vec<Factor> {
+    let least = t(level, f64::INFINITY);
+    let covers = |k: &Printed| k.value + k.half >= least;
+    let stated = claimed.footer.k.as_ref().filter(|k| covers(k));
+    let fixed = stated.and_then(usual_factor).map(Factor::Fixed);
+    fixed.into_iter().chain([Factor::StudentT(level)]).collect()
+}
+
+/// The rules for k where the sheet states neither one nor a probability other than the usual.
+fn usual_factors(claimed: &Claimed) -> Vec<Factor> {
+    let stated = claimed.footer.k.as_ref().and_then(usual_factor);
+    let levels = usual_levels(&claimed.words);
+    let levels = levels.chain(probability_of_factor(&claimed.words));
+    let levels = levels.chain(stated.and_then(level_of_factor));
+    let fixed = stated.into_iter().chain([2.0]).map(Factor::Fixed);
+    fixed.chain(levels.map(Factor::StudentT)).collect()
+}
+
+/// The probability whose normal quantile is printed as this factor.
+fn level_of_factor(k: f64) -> Option<f64> {
+    let is_printed = |p: &f64| (t(*p, f64::INFINITY) - k).abs() <= 0.005;
+    [0.9, 0.99, 0.9973].into_iter().find(is_printed)
+}
+
+/// A stated factor that laboratories fix, other than 2.
+fn usual_factor(k: &Printed) -> Option<f64> {
+    [1.96, 3.0, 2.58, 1.65]
+        .into_iter()
+        .find(|own| *own == k.value)
+}
+
+/// What the model gives for a row.
+#[derive(Clone, Copy)]
+struct Slope {
+    value: f64,
+    /// Whether it is in the units of the estimates.
+    is_converted: bool,
+}
+
+fn line(claimed: &Claimed, row: &Row, slope: Option<Slope>) -> Line {
+    let derivative = slope.map(|slope| slope.value);
     let (u, stated_dof) = row.stated.standard().unwrap_or((0.0, f64::INFINITY));
     let mut u = u * row.relative_factor();
     if u == 0.0
@@ -192,7 +226,10 @@ fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
         // Only the contribution is stated.
         u = row.contribution.as_ref().map_or(0.0, |p| p.value.abs());
     }
-    let to_y = to_y(claimed, row, derivative.is_some());
+    let to_y = slope.map_or_else(
+        || to_y(claimed, row),
+        |slope| to_y_of_model(claimed, row, slope),
+    );
     let mut c = derivative
         .or(row.c.as_ref().map(|c| c.value))
         .unwrap_or(1.0);
@@ -249,32 +286,35 @@ fn silent_step(row: &Row) -> Option<f64> {
     is_zero.then(|| crate::read::figure_after(&row.words, &keys).map(|step| step.value))?
 }
 
-/// From the unit of c·u to that of the result, where units are written that say so.
-fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
+/// From the unit of a derivative times u, which is that of the model, to that of the contributions.
+fn to_y_of_model(claimed: &Claimed, row: &Row, slope: Slope) -> f64 {
     let y_unit = claimed.unit.as_str();
-    if from_model {
-        // The derivative is in the units of the estimates.
-        let of = |from: &str, to: &str| {
-            if from.is_empty() || to.is_empty() {
-                1.0
-            } else {
-                units::factor(from, to).unwrap_or(1.0)
-            }
-        };
-        let value = unit_of_estimate(row);
-        let bare_c = row
-            .c
-            .as_ref()
-            .is_none_or(|c| units::parse(&c.unit).is_none());
-        // A zero without a unit, among estimates in the unit of the result.
-        if value.is_empty()
-            && bare_c
-            && let Some(factor) = units::factor(&row.unit, y_unit)
-        {
-            return factor;
+    let of = |from: &str, to: &str| {
+        if from.is_empty() || to.is_empty() {
+            1.0
+        } else {
+            units::factor(from, to).unwrap_or(1.0)
         }
-        return of(&row.unit, value) * of(unit_of_y(claimed), y_unit);
+    };
+    let of_zero = unit_of_zero(claimed, row).filter(|_| slope.is_converted);
+    let value = of_zero.unwrap_or(unit_of_estimate(claimed, row));
+    let bare_c = row
+        .c
+        .as_ref()
+        .is_none_or(|c| units::parse(&c.unit).is_none());
+    // A zero without a unit, among estimates in the unit of the result.
+    if value.is_empty()
+        && bare_c
+        && let Some(factor) = units::factor(&row.unit, y_unit)
+    {
+        return factor;
     }
+    of(&row.unit, value) * of(unit_of_y(claimed), y_unit)
+}
+
+/// From the unit of c·u to that of the result, where units are written that say so.
+fn to_y(claimed: &Claimed, row: &Row) -> f64 {
+    let y_unit = claimed.unit.as_str();
     if y_unit.is_empty() {
         return 1.0;
     }

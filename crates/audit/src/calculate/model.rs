@@ -4,6 +4,7 @@ use gumption_core::model::{MeasurandSource, Model, Request, Role, Symbol, compil
 use gumption_core::quantity::{Unit, UnitTable};
 
 use crate::claim::{Claimed, Row};
+use crate::printed::Printed;
 use crate::units;
 
 /// The unit of the result itself, which its uncertainty need not be in.
@@ -12,13 +13,31 @@ pub(crate) fn unit_of_y(claimed: &Claimed) -> &str {
     if own.is_empty() { &claimed.unit } else { own }
 }
 
+/// The estimate of the quantity of a row: several rows of one symbol are reasons to doubt one input, and its estimate
+/// stands in one of them.
+pub(super) fn estimate<'a>(claimed: &'a Claimed, row: &'a Row) -> Option<&'a Printed> {
+    let of_symbol = || {
+        let mut rows = claimed.rows.iter().filter(|_| !row.symbol.is_empty());
+        rows.find_map(|other| other.value.as_ref().filter(|_| other.symbol == row.symbol))
+    };
+    row.value.as_ref().or_else(of_symbol)
+}
+
 /// The unit of an estimate; of one that only a note knows, that of its uncertainty.
-pub(super) fn unit_of_estimate(row: &Row) -> &str {
-    match &row.value {
+pub(super) fn unit_of_estimate<'a>(claimed: &'a Claimed, row: &'a Row) -> &'a str {
+    match estimate(claimed, row) {
         Some(value) => &value.unit,
         None if row.is_absent => &row.unit,
         None => "",
     }
+}
+
+/// The unit of a deviation that is zero, of which nobody writes one: that of its uncertainty.
+pub(super) fn unit_of_zero<'a>(claimed: &Claimed, row: &'a Row) -> Option<&'a str> {
+    let is_zero = |value: &Printed| value.value == 0.0 && value.unit.is_empty();
+    let has_unit = !row.unit.is_empty() && units::fraction(&row.unit).is_none();
+    estimate(claimed, row).filter(|value| is_zero(value) && has_unit)?;
+    Some(&row.unit)
 }
 
 /// What a model gives at the estimates.
@@ -31,6 +50,8 @@ pub(super) struct Differentiated {
     pub(super) y: Option<f64>,
     /// Whether the model holds with the units of its estimates.
     pub(super) by_units: bool,
+    /// Whether the slopes are in the units of the estimates.
+    pub(super) is_converted: bool,
     /// The terms of second order in the variance, by that of first order; none where estimates are not stated.
     pub(super) second_order: Option<f64>,
 }
@@ -51,11 +72,11 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
             .find(|j| rows[*j].symbol == rows[i].symbol)
             .unwrap_or(i)
     };
-    let missing = |i: usize| used[i] && rows[first(i)].value.is_none();
+    let missing = |i: usize| used[i] && estimate(claimed, &rows[i]).is_none();
     let any_missing = (0..rows.len()).any(missing);
     // Each unknown estimate on a way of its own, so that ratios of them move, too.
     let at = |power: f64| -> Vec<f64> {
-        let value = |(i, row): (usize, &Row)| match &row.value {
+        let value = |(i, row): (usize, &Row)| match estimate(claimed, row) {
             Some(value) => value.value,
             None => libm::pow(1.3 + 0.37 * i as f64, power),
         };
@@ -66,10 +87,15 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         return Ok(None);
     }
     let formula = renamed(text, claimed);
-    let unit_of = |row: &Row| units::parse(unit_of_estimate(row));
+    let unit_stated = |row: &Row| units::parse(unit_of_estimate(claimed, row));
+    let of_zero = |row: &Row| Some(units::parse(unit_of_zero(claimed, row)?)?.difference());
+    let unit_of = |row: &Row| unit_stated(row).or_else(|| of_zero(row));
     // Among estimates that have units, one that has none is a number.
-    let is_number = |row: &Row| row.value.as_ref().is_some_and(|v| v.unit.is_empty());
-    let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());
+    let is_number = |row: &Row| {
+        let value = estimate(claimed, row);
+        value.is_some_and(|v| v.unit.is_empty()) && of_zero(row).is_none()
+    };
+    let bare_sheet = rows.iter().all(|row| unit_stated(row).is_none());
     let have_units = !bare_sheet
         && !unit_of_y(claimed).is_empty()
         && rows
@@ -134,7 +160,8 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
     // All reasons to doubt an input together.
     let mut doubt = vec![0.0; rows.len()];
     for i in (0..rows.len()).filter(|i| used[*i]) {
-        doubt[first(i)] = libm::hypot(doubt[first(i)], doubt_of_estimate(&rows[i]));
+        let doubt_of_row = doubt_of_estimate(claimed, &rows[i]);
+        doubt[first(i)] = libm::hypot(doubt[first(i)], doubt_of_row);
     }
     let second_order = (!any_missing)
         .then(|| second_order(&model, &values, &doubt))
@@ -146,6 +173,7 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         of_model: (0..rows.len()).map(|i| used[i] && !unknown[i]).collect(),
         unknown,
         by_units,
+        is_converted,
     }))
 }
 
@@ -177,14 +205,14 @@ fn beside_numbers(
 }
 
 /// The standard uncertainty of an estimate, in the unit of the estimate.
-fn doubt_of_estimate(row: &Row) -> f64 {
+fn doubt_of_estimate(claimed: &Claimed, row: &Row) -> f64 {
     let u = row
         .stated
         .standard()
         .map_or(0.0, |(u, _)| u * row.relative_factor());
     let to_estimate = match relative_to_estimate(row) {
         Some((fraction, value)) => Some(fraction * value.abs()),
-        None => units::factor(&row.unit, unit_of_estimate(row)),
+        None => units::factor(&row.unit, unit_of_estimate(claimed, row)),
     };
     match row.not_counted {
         None => u * to_estimate.unwrap_or(1.0),

@@ -35,7 +35,7 @@ impl Types {
         let units = [a, b].map(|(_, cell)| columns::apart(&cell.text).1);
         let types = Types {
             columns: [a.0, b.0],
-            head: head_of_both(grid, head, &units[0]),
+            head: head_of_both(grid, head, [a.0, b.0], &units[0]),
         };
         let parted = types.rows(grid, head);
         let parted = parted.filter(|row| types.figures(grid, *row).len() == 1);
@@ -148,15 +148,23 @@ fn is_of_whole(grid: &Grid, row: usize) -> bool {
     })
 }
 
-/// What the figures of both types are: what was divided, where a divisor or what it gave stands in a column of its own.
-fn head_of_both(grid: &Grid, head: usize, unit: &str) -> String {
+/// What the figures of both types are: standard uncertainties, where their heads say so; else what was divided, where a divisor
+/// or what it gave stands in a column of its own.
+fn head_of_both(grid: &Grid, head: usize, own: [usize; 2], unit: &str) -> String {
+    let says_u = |column: usize| {
+        let role = columns::role(&grid.cell(head, column).text);
+        role.is_some_and(|(role, _)| role == Role::U)
+    };
     let holds_figures = |column: usize| grid.cell(head + 1, column).figure().is_some();
     let figures = grid
         .filled(head)
-        .filter(|(column, _)| holds_figures(*column));
+        .filter(|(column, _)| holds_figures(*column) && !own.contains(column));
     let mut roles = figures.filter_map(|(_, cell)| Some(columns::role(&cell.text)?.0));
     let divided = roles.any(|role| matches!(role, Role::Divisor | Role::U | Role::Contribution));
-    let name = if divided { "Value ±" } else { "u(x_i)" };
+    let name = match divided && !own.into_iter().all(says_u) {
+        true => "Value ±",
+        false => "u(x_i)",
+    };
     match unit {
         "" => name.to_owned(),
         unit => format!("{name} ({unit})"),
@@ -170,6 +178,7 @@ fn is_of_type(head: &str, name: &str) -> bool {
         [
             format!("type{name}"),
             format!("type-{name}"),
+            format!("typ{name}"),
             format!("{name}类"),
         ]
         .iter()

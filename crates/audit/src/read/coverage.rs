@@ -1,9 +1,11 @@
 //! What a sheet says of its coverage: how k is found, and for which probability.
 
-use crate::claim::{Claimed, Coverage};
-use crate::printed::leading;
+use std::ops::RangeInclusive;
 
-use super::footer;
+use crate::claim::{Claimed, Coverage};
+use crate::printed::{Printed, leading};
+
+use super::footer::{self, Whole};
 use super::words::{figure_after, has, named_probability};
 
 /// The rule for k, where the line states one.
@@ -72,7 +74,7 @@ pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
         return false;
     }
     match figure_after(lower, &["coverage factor", "包含因子", "k"]) {
-        Some(k) if (1.0..5.0).contains(&k.value) => {
+        Some(k) if (1.0..5.0).contains(&k.value) && may_be_rule(&k, claimed) => {
             claimed.coverage = Coverage::Fixed(k.value);
             // A sentence of the statement claims its factor, too.
             true
@@ -81,14 +83,31 @@ pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     }
 }
 
-/// The rule that the label of a coverage factor states: `k (t, 95 %)`. What it says of a probability is said of the whole.
-pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
-    let lower = text.to_lowercase();
-    if named_probability(&lower).is_some() {
+/// Whether a factor in a line may be that of the sheet: beside U that states its own, another one is of another time or case.
+fn may_be_rule(k: &Printed, claimed: &Claimed) -> bool {
+    let stated = claimed.footer.k.as_ref();
+    let is_of_statement = |own: &&Printed| {
+        let expanded = claimed.footer.expanded.as_ref();
+        expanded.is_some_and(|expanded| expanded.at.row == own.at.row)
+    };
+    stated
+        .filter(is_of_statement)
+        .is_none_or(|own| own.value == k.value)
+}
+
+/// Takes the probability that the label of U or k names: it is said of the whole.
+pub fn level_of_label(text: &str, claimed: &mut Claimed) {
+    if probability(&text.to_lowercase()).is_some() {
         claimed.words.push_str(text);
         claimed.words.push('\n');
     }
-    let by_t = has(&lower, &["t", "student", "t分布", "t95", "t_95"]);
+}
+
+/// The rule that the label of a coverage factor states: `k (t, 95 %)`.
+pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
+    let lower = text.to_lowercase();
+    level_of_label(text, claimed);
+    let by_t = has(&lower, &["t", "student", "t分布"]) || index_of(&lower, &['t']).is_some();
     if by_t && claimed.coverage == Coverage::Unstated {
         claimed.coverage = Coverage::StudentT(probability(&lower).unwrap_or(0.95));
     }
@@ -160,29 +179,66 @@ pub(crate) fn probability_of_factor(words: &str) -> Option<f64> {
 /// The probabilities that k may have where no rule is stated. Who says 95.45 % of the coverage, and nowhere 95 %, does not mean
 /// that; 95 % may be rounded from the other one (EA-4/02, E).
 pub(crate) fn usual_levels(words: &str) -> impl Iterator<Item = f64> {
-    let lines = words.lines().map(str::to_lowercase);
-    let is_of_coverage = |line: &String| {
-        has(line, &["coverage", "confidence", "包含", "置信", "k", "u"])
-            && !has(line, &["certificate", "cert.", "证书"])
-    };
-    let levels = lines
-        .filter(is_of_coverage)
-        .filter_map(|line| named_probability(&line));
-    let levels: Vec<f64> = levels.collect();
-    let is_exact = levels.contains(&0.9545) && !levels.contains(&0.95);
+    let is_exact = names_level(words, 0.9545) && !names_level(words, 0.95);
     [0.95, 0.9545]
         .into_iter()
         .filter(move |p| !is_exact || *p == 0.9545)
 }
 
-/// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
-fn probability(lower: &str) -> Option<f64> {
-    index_of_t(lower).or_else(|| named_probability(lower))
+/// Whether a line about coverage names a probability.
+pub(crate) fn names_level(words: &str, p: f64) -> bool {
+    let is_of_coverage = |line: &String| {
+        has(line, &["coverage", "confidence", "包含", "置信", "k", "u"]) && !is_of_certificate(line)
+    };
+    let lines = words.lines().map(str::to_lowercase);
+    let mut levels = lines
+        .filter(is_of_coverage)
+        .filter_map(|line| named_probability(&line));
+    levels.any(|level| level == p)
 }
 
-/// The probability that a factor has as its index.
-fn index_of_t(lower: &str) -> Option<f64> {
-    let factors = lower.match_indices(['t', 'k']).filter(|(at, _)| {
+/// The probability that the sheet states of its U or k, where it is none of the usual ones: `U99`, `U (99 %)`, `k_99`,
+/// `coverage probability 99.73 %`.
+pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
+    const OF_WHOLE: [&str; 6] = [
+        "coverage probability",
+        "level of confidence",
+        "confidence level",
+        "包含概率",
+        "置信概率",
+        "置信水平",
+    ];
+    /// Both usual ones, and those between them that are rounded.
+    const USUAL: RangeInclusive<f64> = 0.945..=0.956;
+    let is_of_whole = |line: &&str| {
+        let label = footer::label(line, "");
+        let is_figure = matches!(label, Some(Whole::Expanded | Whole::Factor));
+        let lower = line.to_lowercase();
+        (is_figure || has(&lower, &OF_WHOLE)) && !is_of_certificate(&lower)
+    };
+    let is_of_other_k = |line: &&str| {
+        let own = claimed.footer.k.as_ref();
+        let other = footer::assigned(line, "k").zip(own);
+        other.is_some_and(|(other, own)| other.value != own.value)
+    };
+    let lines = claimed.words.lines().filter(is_of_whole);
+    let lines = lines.filter(|line| !is_of_other_k(line));
+    let mut levels = lines.filter_map(|line| probability(&line.to_lowercase()));
+    levels.next().filter(|level| !USUAL.contains(level))
+}
+
+fn is_of_certificate(lower: &str) -> bool {
+    has(lower, &["certificate", "cert.", "证书"])
+}
+
+/// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
+fn probability(lower: &str) -> Option<f64> {
+    index_of(lower, &['t', 'k', 'u']).or_else(|| named_probability(lower))
+}
+
+/// The probability that one of these letters has as its index: 0.99 of `U_99` and `t0.99`.
+fn index_of(lower: &str, letters: &[char]) -> Option<f64> {
+    let factors = lower.match_indices(letters).filter(|(at, _)| {
         let before = lower[..*at].chars().next_back();
         !before.is_some_and(char::is_alphanumeric)
     });

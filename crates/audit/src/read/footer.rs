@@ -3,6 +3,7 @@
 use crate::claim::Footer;
 use crate::printed::{Place, Printed, leading};
 
+use super::statement;
 use super::words::{compact, find, has};
 
 /// A figure of the whole.
@@ -39,17 +40,13 @@ const WORDS: &[(Whole, &[&str])] = &[
     (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
     (Whole::Factor, &["coverage factor", "erweiterungsfaktor", "facteur d'élargissement", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
     (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded", "erweitert"]),
-    (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "合成uc", "合成u_c", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "kombiniert", "total standard uncertainty"]),
+    (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "合成uc", "合成u_c", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "root sum square", "root-sum-square", "rss", "comb. std", "comb. unc", "gesamtstandard", "beigeordnete standard", "combined", "kombiniert", "total standard uncertainty"]),
     (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
 ];
 
 /// Symbols that stand alone in a cell.
 fn symbol(text: &str) -> Option<Whole> {
-    // `U(k = 2)`
-    let condition = text
-        .split_once('(')
-        .filter(|(_, inner)| inner.contains('='));
-    let name = condition.map_or(text, |(name, _)| name);
+    let name = without_condition(text);
     let name = name
         .split(['=', ':', '/', '['])
         .next()
@@ -75,12 +72,30 @@ fn symbol(text: &str) -> Option<Whole> {
     }
     match compact(name).as_str() {
         "uc" | "wc" | "w(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u"
-        | "sum" | "summe" | "rss" => Some(Whole::Combined),
+        | "sum" | "summe" | "rss" | "total" | "gesamt" | "合成" | "合计" => {
+            Some(Whole::Combined)
+        }
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
         "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),
         _ => None,
     }
+}
+
+/// The name in front of the condition under which a figure holds: `U` of `U(k = 2)`, `U, k = 2`, `U: k=2` and `U k=2`.
+fn without_condition(text: &str) -> &str {
+    let front = text.split('=').next().unwrap_or_default().trim_end();
+    let is_condition = front.len() < text.trim_end().len();
+    let factor = ["k", "k_p", "p", "P"].iter().find_map(|name| {
+        let front = front.strip_suffix(name).filter(|_| is_condition)?;
+        let name = front.trim_end_matches([' ', ',', ';', ':', '(', '[']);
+        (name.len() < front.len() && !name.is_empty()).then_some(name)
+    });
+    // `U (95 %, k = 2)`
+    let bracket = text
+        .split_once('(')
+        .filter(|(_, inner)| inner.contains('='));
+    bracket.map(|(name, _)| name).or(factor).unwrap_or(text)
 }
 
 /// `combined relative standard uncertainty` is called by the words for the absolute one.
@@ -136,6 +151,9 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
         return Some(Whole::Y);
     }
     let lower = absolute(&text.to_lowercase());
+    if is_expanded_by_factor(&lower) {
+        return Some(Whole::Expanded);
+    }
     // `Sum u(m_X)`, `Total u`, `Total u_c`; `Total type A` of a block.
     let total = ["sum ", "sum of ", "total ", "total of ", "合计 "]
         .iter()
@@ -161,6 +179,58 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     let first = found.min_by_key(|(at, _)| *at)?;
     let short = first.0 <= 12 || text.chars().count() < 40;
     short.then_some(first.1)
+}
+
+/// Whether a text in small letters is nothing but `uncertainty` with a factor, `Messunsicherheit (k=2)`, which makes it expanded.
+fn is_expanded_by_factor(lower: &str) -> bool {
+    const NAMES: [&str; 10] = [
+        "uncertainty",
+        "measurement uncertainty",
+        "total uncertainty",
+        "overall uncertainty",
+        "mu",
+        "messunsicherheit",
+        "incertitude",
+        "incertidumbre",
+        "不确定度",
+        "测量不确定度",
+    ];
+    let name = without_condition(lower).trim();
+    let factor = super::words::figure_after(lower, &["k"]);
+    let is_one = |k: &Printed| k.value == 1.0;
+    name.len() < lower.trim().len() && NAMES.contains(&name) && !factor.is_some_and(|k| is_one(&k))
+}
+
+/// Whether what stands below u_c is called as an expanded uncertainty may be: it names an uncertainty, U, its factor, or a multiple of
+/// u_c.
+pub fn may_be_expanded(text: &str) -> bool {
+    const UNCERTAINTY: [&str; 10] = [
+        "uncert",
+        "unsicher",
+        "incert",
+        "nejist",
+        "niepewn",
+        "osäkerhet",
+        "onzeker",
+        "неопредел",
+        "不确定",
+        "expand",
+    ];
+    const LIMITS: [&str; 7] = ["cmc", "limit", "toleran", "mpe", "target", "允", "限"];
+    let lower = text.to_lowercase();
+    let is_named = |keys: &[&str]| keys.iter().any(|key| lower.contains(key));
+    let is_multiple = || leading(text).is_some_and(|(_, behind)| names_u(behind));
+    let by_factor = || without_condition(text).len() < text.len();
+    let by_symbol = || super::words::has_symbol(text, "U");
+    !is_named(&LIMITS) && (is_named(&UNCERTAINTY) || is_multiple() || by_factor() || by_symbol())
+}
+
+/// The coverage factor that the label of U names in words: `Expanded uncertainty, coverage factor 3`.
+pub fn factor_of_label(text: &str) -> Option<Printed> {
+    let of_factor = WORDS.iter().find(|(whole, _)| *whole == Whole::Factor);
+    let (_, keys) = of_factor?;
+    let figure = super::words::figure_after(text, keys)?;
+    ((1.0..5.0).contains(&figure.value) && figure.unit.is_empty()).then_some(figure)
 }
 
 /// Whether a text is or begins with the name of a result whose small letter is the coverage factor: a scale factor K.
@@ -212,9 +282,9 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     let mut stated = None;
     let y = footer.y.clone();
     // `Combined uncertainty (k = 1)`: a standard uncertainty, of which nothing is said of the coverage factor.
-    let is_of_u_c = label(text, measurand) == Some(Whole::Combined);
+    let is_standard = label(text, measurand) != Some(Whole::Expanded);
     let mut take = |whole: Whole, figure: Printed| {
-        let is_none = whole == Whole::Factor && is_of_u_c && figure.value == 1.0;
+        let is_none = whole == Whole::Factor && is_standard && figure.value == 1.0;
         if !is_none && set(footer, whole, figure.at(at)) {
             found.push(whole);
         }
@@ -231,7 +301,7 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             }
         }
     }
-    let factor = multiple_of_u(text);
+    let factor = multiple_of_u(text).or_else(|| factor_of_product(text, measurand));
     if let Some(factor) = &factor {
         take(Whole::Factor, factor.clone());
     }
@@ -240,40 +310,10 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     {
         take(Whole::Y, figure);
     }
-    // y = (50.001 ± 0.054) mm; of an air temperature of (20 ± 5) °C it is not said that it is the result.
-    let claims = |front: &str| {
-        front.contains('=')
-            || has(
-                &text.to_lowercase(),
-                &["result", "结果", "uncertainty", "不确定度", "k =", "k="],
-            )
-    };
-    if let Some((front, behind)) = text.split_once('±').filter(|(front, _)| claims(front))
-        && let Some((expanded, rest)) = leading(behind)
-    {
-        let unit = rest
-            .trim_start_matches([')', ' '])
-            .split([' ', ',', ';', '(', '，', '；', '（', '。'])
-            .next()
-            .unwrap_or_default()
-            .trim_end_matches('.');
-        // `(50.001 ± 0.054) mm` and `50.001 mm ± 0.054 mm`
-        let number = front.rsplit(['(', '=', ' ']).find_map(leading);
-        if let Some((y, _)) = number {
-            take(
-                Whole::Y,
-                Printed {
-                    unit: unit.into(),
-                    ..y
-                },
-            );
-            let reported = Printed {
-                unit: unit.into(),
-                ..expanded
-            };
-            take(Whole::Expanded, reported.clone());
-            stated = Some(reported.at(at));
-        }
+    if let Some((result, reported)) = statement::of_result(text, y.as_ref()) {
+        take(Whole::Y, result);
+        take(Whole::Expanded, reported.clone());
+        stated = Some(reported.at(at));
     }
     let text = &absolute(text);
     let lower = text.to_lowercase();
@@ -319,6 +359,25 @@ fn multiple_of_u(text: &str) -> Option<Printed> {
         let (factor, behind) = leading(sides[1])?;
         let of_u = names_u(behind) || name.ends_with('U') && is_u_alone(behind);
         ((1.0..5.0).contains(&factor.value) && of_u).then_some(factor)
+    })
+}
+
+/// The factor of `U = 3 × 29.3 mg = 88 mg`: the number without a unit in front of what it multiplies.
+fn factor_of_product(text: &str, measurand: &str) -> Option<Printed> {
+    if label(text, measurand) != Some(Whole::Expanded) {
+        return None;
+    }
+    let sides: Vec<&str> = text.split(['=', '≈']).collect();
+    let mut pairs = sides.windows(2);
+    pairs.find_map(|sides| {
+        let (factor, behind) = leading(sides[0])?;
+        let behind = behind.trim_start();
+        let is_product = super::words::starts_product(behind);
+        let second = behind.trim_start_matches(['×', '*', '·', 'x', 'X', ' ']);
+        let (_, rest) = leading(second).filter(|_| is_product)?;
+        let is_last = !super::words::starts_product(rest.trim_start());
+        let is_made = is_last && leading(sides[1]).is_some();
+        ((1.0..5.0).contains(&factor.value) && is_made).then_some(factor)
     })
 }
 
@@ -432,6 +491,10 @@ pub fn assigned(text: &str, name: &str) -> Option<Printed> {
             else {
                 break;
             };
+            // `U: k=2`: what is assigned is the factor.
+            if matches!(right[..next].trim_end(), "k" | "k_p" | "p" | "P") {
+                break;
+            }
             rest = &right[next..];
         }
     }

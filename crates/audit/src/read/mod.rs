@@ -9,6 +9,7 @@
 //! | `columns` | what a column is, by its head |
 //! | `counts` | whole numbers that count something in texts |
 //! | `coverage` | what a sheet says of its coverage |
+//! | `statement` | results that are stated with their uncertainty |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
 //! | `converter` | the step of a converter, from its bits and range |
@@ -51,6 +52,7 @@ mod quotients;
 mod result_unit;
 mod series;
 mod simulated;
+mod statement;
 mod table;
 mod turned;
 mod words;
@@ -58,7 +60,7 @@ mod wrapped;
 
 pub use columns::Role;
 pub(crate) use counts::count_before;
-pub(crate) use coverage::{probability_of_factor, usual_levels};
+pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
@@ -478,7 +480,9 @@ fn is_closed_below(grid: &Grid, row: usize) -> bool {
 /// The last row of a table in the form of EA-4/02 is that of the result.
 fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
     let named = raw.iter().position(|raw| raw.is_result(&claimed.measurand));
-    let closing = || table::closing(raw);
+    let is_source =
+        |place: &usize| table::is_like_source(raw) && is_closed_below(grid, raw[*place].row.at.row);
+    let closing = || table::closing(raw).filter(|place| !is_source(place));
     let product = table::product(raw).filter(|_| claimed.model.is_none());
     let product = product.filter(|place| !is_closed_below(grid, raw[*place].row.at.row));
     let Some(place) = named.or_else(closing).or(product) else {

@@ -1,6 +1,6 @@
 //! Lines beside the table: model, correlations, the rules for k and rounding, CMC.
 
-use crate::claim::{Claimed, Correlation, Coverage, Footer, RoundingStated, Row, Stated};
+use crate::claim::{Claimed, Correlation, Footer, RoundingStated, Row, Stated};
 use crate::printed::{Place, Printed, leading};
 
 use super::counts::{count_after, count_before};
@@ -363,6 +363,7 @@ pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claim::Coverage;
 
     fn with_rows(symbols: &[&str]) -> Claimed {
         let row = |symbol: &&str| Row {

@@ -93,7 +93,10 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize, usize)> {
         && words(across.into_iter()) > words(below);
     let mut names = grid.filled(start).map(|(_, cell)| cell.text.as_str());
     let is_compared = names.any(is_of_comparison);
-    let is_turned = roles.len() >= FEWEST && is_head(&roles) && !is_usual && !is_compared;
+    // One column of figures behind the heads would be one quantity, and no budget.
+    let are_several = grid.filled(start).count() > 2;
+    let is_turned =
+        roles.len() >= FEWEST && is_head(&roles) && !is_usual && !is_compared && are_several;
     is_turned.then_some((start, end, heads))
 }
 

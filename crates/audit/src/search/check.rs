@@ -319,14 +319,20 @@ pub fn reported(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f6
     let checked = check(case, calculation, printed);
     let exact = checked.figures;
     let claimed = case.claimed.footer.k.as_ref().filter(|_| checked.k);
-    let k = claimed.map_or_else(|| libm::round(100.0 * exact.k) / 100.0, |k| k.value);
-    let ratio = calculation.report.multiple(k) / calculation.report.multiple(exact.k);
+    let usual = claimed.map_or_else(|| libm::round(100.0 * exact.k) / 100.0, |k| k.value);
+    let ratio = |k: f64| calculation.report.multiple(k) / calculation.report.multiple(exact.k);
+    // U may have been made of a k with all its digits: 2.576 of the one that is printed as 2.58.
+    let is_made = |k: &f64| {
+        let expanded = case.claimed.footer.expanded.as_ref();
+        expanded.is_none_or(|figure| figure.is_met_by(exact.expanded * ratio(*k)))
+    };
+    let k = [usual, exact.k].into_iter().find(is_made).unwrap_or(usual);
     let floor = case.claimed.cmc.as_ref().filter(|_| calculation.report.cmc);
     let floor = floor.map_or(0.0, |cmc| cmc.value) * calculation.report.scale;
     Figures {
         k,
         expanded: if exact.expanded > floor {
-            (exact.expanded * ratio).max(floor)
+            (exact.expanded * ratio(k)).max(floor)
         } else {
             exact.expanded
         },

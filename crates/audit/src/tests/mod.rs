@@ -2,10 +2,12 @@
 
 mod columns;
 mod contained;
+mod coverage;
 mod digits;
 mod forms;
 mod further;
 mod hands;
+mod labels;
 mod laboratories;
 mod layouts;
 mod others;

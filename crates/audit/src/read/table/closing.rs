@@ -32,6 +32,18 @@ pub fn closing(rows: &[Raw]) -> Option<usize> {
     closes.then_some(others.len())
 }
 
+/// Whether the last row, by nothing but a value and a contribution, is the result: a row of the sum below it says that it is
+/// one of its sources.
+pub fn is_like_source(rows: &[Raw]) -> bool {
+    let Some((last, others)) = rows.split_last() else {
+        return false;
+    };
+    let figures = [&last.row.value, &last.row.contribution];
+    let are_both = figures.iter().all(|figure| figure.is_some());
+    let mut made = figures.into_iter().flatten();
+    are_both && made.all(|figure| times(figure, others).is_none()) && !is_sum(&last.row, others)
+}
+
 /// The symbol of the last row, where it may be that of the result: it has nothing of what most others have.
 pub fn symbol_of_result(rows: &[Raw]) -> Option<&str> {
     let (last, others) = rows.split_last()?;
@@ -53,10 +65,12 @@ fn repeats(row: &Row, others: &[Raw]) -> bool {
 
 /// Whether a row is called a standard uncertainty, as that of the whole is in short.
 fn is_standard(row: &Row) -> bool {
-    const WORDS: [&str; 4] = [
+    const WORDS: [&str; 6] = [
         "standard uncertainty",
         "standardunsicherheit",
+        "standardmessunsicherheit",
         "incertitude-type",
+        "incertitude type",
         "标准不确定度",
     ];
     let label = row.label().to_lowercase();

@@ -67,6 +67,7 @@ pub(super) fn by_content(grid: &Grid, located: &mut Located) {
         column.role = role;
     }
     value_is_used(grid, located);
+    u_is_used(grid, located);
     without_coefficient(grid, located);
     nameless_words(grid, located);
 }
@@ -118,6 +119,37 @@ fn value_is_used(grid: &Grid, located: &mut Located) {
         .filter(|value| !located.has(Role::Used) && gives_u(grid, located, *value));
     let mut columns = located.columns.iter_mut();
     if let Some(column) = columns.find(|c| Some(c.index) == value) {
+        column.role = Role::Used;
+    }
+}
+
+/// `u | Divisor | Contribution`: what is called u was divided, where every contribution shows it, and is no contribution as it
+/// stands.
+fn u_is_used(grid: &Grid, located: &mut Located) {
+    let roles = [Role::U, Role::Divisor, Role::Contribution];
+    let indices: Vec<usize> = roles.iter().filter_map(|role| at(located, *role)).collect();
+    let [u, divisor, made] = indices[..] else {
+        return;
+    };
+    if located.has(Role::Used) {
+        return;
+    }
+    let c = at(located, Role::C);
+    let row = |row: &usize| {
+        let figure = |index: usize| grid.cell(*row, index).figure();
+        let c = match c {
+            Some(c) => figure(c)?.value,
+            None => 1.0,
+        };
+        let (u, divisor, made) = (figure(u)?, figure(divisor)?, figure(made)?);
+        let meets = |x: f64| made.is_met_within(x.copysign(made.value), 2.0 * made.half);
+        Some((meets(c * u.value / divisor.value), meets(c * u.value)))
+    };
+    // The row of the result has no divisor.
+    let rows: Vec<(bool, bool)> = located.rows.iter().filter_map(row).collect();
+    let is_divided = rows.iter().all(|(divided, _)| *divided) && rows.iter().any(|(_, own)| !own);
+    let mut columns = located.columns.iter_mut();
+    if let Some(column) = columns.find(|column| is_divided && column.index == u) {
         column.role = Role::Used;
     }
 }
@@ -239,6 +271,20 @@ impl Made {
         Some(Made { of, coefficient })
     }
 
+    /// c·a of a row in the unit of what was made of it, and that, where both units are known.
+    fn converted(
+        &self,
+        grid: &Grid,
+        located: &Located,
+        row: usize,
+        index: usize,
+    ) -> Option<(f64, f64)> {
+        let unit_of = |index: usize| located.unit_in(grid, row, index);
+        let factor = units::factor(&unit_of(index), &unit_of(self.of))?;
+        let (a, made) = self.pair(grid, row, index)?;
+        Some((a * factor, made))
+    }
+
     /// c·a of a row, and what was made of it, as far as their units allow to compare them.
     fn pair(&self, grid: &Grid, row: usize, index: usize) -> Option<(f64, f64)> {
         let figure = |index: usize| grid.cell(row, index).figure();
@@ -281,8 +327,15 @@ fn gives_u(grid: &Grid, located: &Located, index: usize) -> bool {
     };
     let divides = |row: &&usize| {
         let divisor = grid.cell(**row, divisor).figure();
-        let pair = made.pair(grid, **row, index).zip(divisor);
-        pair.is_some_and(|((a, u), divisor)| (a / divisor.value - u).abs() <= 0.05 * u)
+        let mut pairs = [
+            made.pair(grid, **row, index),
+            made.converted(grid, located, **row, index),
+        ]
+        .into_iter()
+        .flatten();
+        let is_u =
+            |(a, u): (f64, f64), divisor: &Printed| (a / divisor.value - u).abs() <= 0.05 * u;
+        divisor.is_some_and(|divisor| pairs.any(|pair| is_u(pair, &divisor)))
     };
     // An estimate that happens to do so is rare: half of the rows are enough, as one of two of which the other has a slip.
     let count = located.rows.iter().filter(divides).count();

@@ -184,7 +184,7 @@ impl Reading<'_> {
         }
         let of_force = || (text == "W" && self.around.labels == 0).then_some(Whole::Expanded);
         match footer::label(text, &self.around.measurand).or_else(of_force) {
-            Some(whole) => self.label(whole, text),
+            Some(whole) => self.label(whole, place, text),
             // `k | p = 95 %, t-distribution | 2.03`
             None if self.is_open(Whole::Factor) => coverage::rule_of_label(text, self.claimed),
             None => {}
@@ -214,7 +214,7 @@ impl Reading<'_> {
         own.is_some()
     }
 
-    fn label(&mut self, whole: Whole, text: &str) {
+    fn label(&mut self, whole: Whole, place: Place, text: &str) {
         self.is_relative = footer::is_relative(text);
         // `Expanded uncertainty | k = | 2 | 0.6`: behind its factor U is still open.
         if whole == Whole::Factor && !self.is_open(whole) {
@@ -227,6 +227,10 @@ impl Reading<'_> {
             }
             Whole::Freedom => String::new(),
             Whole::Expanded => {
+                coverage::level_of_label(text, self.claimed);
+                if let Some(k) = footer::factor_of_label(text) {
+                    self.take(Whole::Factor, k.at(place), text);
+                }
                 notes::rounding(&text.to_lowercase(), self.claimed);
                 columns::apart(text).1
             }

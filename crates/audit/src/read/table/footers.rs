@@ -33,6 +33,42 @@ pub fn footers(
     for figure in relative {
         figure.settle(claimed);
     }
+    expanded_below(grid, sheet, located, claimed);
+}
+
+/// U by its place, where no label of it is known: below u_c, in its column, and not smaller.
+fn expanded_below(grid: &Grid, sheet: usize, located: &mut Located, claimed: &mut Claimed) {
+    /// Between them may stand ν_eff, k and the probability.
+    const NEAR: usize = 4;
+    let Some(u_c) = claimed
+        .footer
+        .u_c
+        .clone()
+        .filter(|_| claimed.footer.expanded.is_none())
+    else {
+        return;
+    };
+    if u_c.at.sheet != sheet {
+        return;
+    }
+    let below = u_c.at.row + 1..=u_c.at.row + NEAR;
+    let stated = below.filter(|row| !located.is_row(*row)).find_map(|row| {
+        let (_, label) = grid.filled(row).next()?;
+        let is_open = footer::label(&label.text, &claimed.measurand).is_none();
+        let figure = grid.cell(row, u_c.at.column).figure()?;
+        let is_it = is_open && figure.value >= u_c.value && footer::may_be_expanded(&label.text);
+        is_it.then_some((row, figure))
+    });
+    if let Some((row, mut figure)) = stated {
+        let at = Place { row, ..u_c.at };
+        if figure.unit.is_empty() {
+            figure.unit.clone_from(&u_c.unit);
+        }
+        let text = grid.cell(row, at.column).text.clone();
+        footer::set(&mut claimed.footer, footer::Whole::Expanded, figure.at(at));
+        footer_row::understood(claimed, at, &text, footer::Whole::Expanded);
+        located.used.insert(row);
+    }
 }
 
 /// The claimed figures on a sheet without a table, and the rows that hold them.

@@ -15,6 +15,7 @@ use super::head::{head, is_matrix, line_above, second_line};
 use super::labels;
 use super::located::Located;
 use super::pages::joined;
+use super::sources;
 
 /// Every table of a sheet that is a budget.
 pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
@@ -56,19 +57,28 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     let mut strange = 0;
     // Below U and a line of words another table begins.
     let (mut has_expanded, mut is_over) = (false, false);
+    let mut is_summed = false;
     for row in (located.end..grid.rows.len()).filter(|row| !grid.left_out.contains(row)) {
         // A row with the symbol A and a unit may look like a head.
         let repeated = figures(grid, row, located) == 0 && head(grid, row, mapping).is_some();
         if repeated || is_matrix(grid, row) || labels::are_across(grid, row, "") {
             break;
         }
-        match what(grid, row, located, strange == 0) {
+        let what = match what(grid, row, located, strange == 0) {
+            What::Footer if sources::is_source(grid, row, located) => What::Row,
+            What::Row if is_summed && sources::lacks_inputs(grid, row, located) => What::Footer,
+            what => what,
+        };
+        match what {
             What::Row if is_over => break,
             What::Row => {
                 located.rows.push(row);
                 located.used.insert(row);
             }
-            What::Footer => has_expanded |= !located.rows.is_empty() && states_expanded(grid, row),
+            What::Footer => {
+                has_expanded |= !located.rows.is_empty() && states_expanded(grid, row);
+                is_summed |= !located.rows.is_empty() && sources::is_sum(grid, row);
+            }
             What::Other => {
                 is_over |= has_expanded && grid.filled(row).next().is_some();
                 strange += 1;
@@ -141,6 +151,10 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
     let explained = !text(Role::Distribution).is_empty()
         && !text(Role::Distribution).to_lowercase().contains("k")
         || text(Role::Type).len() == 1;
+    // A row with the inputs of a source, and a name that says nothing of the whole, may have any letter for its symbol.
+    let is_named = !text(Role::Name).is_empty() && footer::label(text(Role::Name), "").is_none();
+    let is_quantity =
+        |symbol: &str| symbol.chars().count() == 1 && is_named && (inputs || explained);
     let strong = called.iter().any(|t| {
         let lower = t.to_lowercase();
         has(
@@ -162,7 +176,7 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
             || lower.starts_with("erweiterte")
             || lower.starts_with("sum u(")
             || lower.starts_with("扩展不确定度")
-            || is_symbol_of_whole(t)
+            || is_symbol_of_whole(t) && !is_quantity(t)
     });
     // Of `Expanded uncertainty | k = | 2 | 0.6` the factor stands where the others have a coefficient.
     let factor = located.column(Role::C).is_some_and(|c| {

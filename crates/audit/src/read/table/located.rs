@@ -120,6 +120,19 @@ impl Located {
         known.chain(unknown).collect()
     }
 
+    /// The unit of a figure of the table: its own, that of the head of its column, or that of the column of units.
+    pub(super) fn unit_in(&self, grid: &Grid, row: usize, index: usize) -> String {
+        let own = grid.cell(row, index).figure().map(|figure| figure.unit);
+        let column = self.columns.iter().find(|column| column.index == index);
+        let of_head = column.map(|column| column.unit.clone());
+        let of_row = self
+            .column(Role::Unit)
+            .map(|unit| grid.cell(row, unit.index));
+        let of_row = of_row.map(|cell| cell.text.trim().to_string());
+        let mut units = [own, of_head, of_row].into_iter().flatten();
+        units.find(|unit| !unit.is_empty()).unwrap_or_default()
+    }
+
     pub(super) fn column(&self, role: Role) -> Option<&Column> {
         self.columns.iter().find(|column| column.role == role)
     }

@@ -11,6 +11,7 @@
 //! | `line` | one row, as it stands on the sheet |
 //! | `raw` | a row with what is needed to interpret it |
 //! | `rows` | all rows with their figures |
+//! | `sources` | rows that are called as figures of the whole are, and rows below u_c |
 //! | `closing` | the row of the result, which closes a table |
 //! | `product` | tables of a product, by their relative uncertainties |
 //! | `footers` | the claimed figures of the whole |
@@ -33,8 +34,9 @@ mod product;
 mod raw;
 mod relative;
 mod rows;
+mod sources;
 
-pub use closing::{closing, figures_of_result, symbol_of_result};
+pub use closing::{closing, figures_of_result, is_like_source, symbol_of_result};
 pub use footers::{footers, footers_beside, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;

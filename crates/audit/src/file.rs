@@ -3,8 +3,9 @@
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
 
-use crate::claim::Claimed;
+use crate::claim::{Claimed, Unplaced};
 use crate::import;
+use crate::printed::Place;
 use crate::programs;
 use crate::read::{self, Mapping};
 use crate::search::search;
@@ -17,8 +18,24 @@ use crate::sheet::{self, Grid, Unreadable};
 pub fn claims(name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Vec<Claimed>, Unreadable> {
     match programs::statements(name, bytes) {
         Some(statements) => Ok(statements?.iter().flat_map(programs::claims).collect()),
-        None => Ok(read::budgets(&sheets(name, bytes)?, mapping)),
+        None => {
+            let grids = sheets(name, bytes)?;
+            let mut claims = read::budgets(&grids, mapping);
+            if let Some(first) = claims.first_mut() {
+                first.unplaced.extend(of_nothing(&grids, mapping));
+            }
+            Ok(claims)
+        }
     }
+}
+
+/// What a user says of columns that the file does not have, where everything stands that was not used.
+fn of_nothing(grids: &[Grid], mapping: &Mapping) -> Vec<Unplaced> {
+    let line = |name: &str| Unplaced {
+        at: Place::default(),
+        text: format!("[columns] {name:?}"),
+    };
+    mapping.of_nothing(grids).map(line).collect()
 }
 
 /// The sheets of a file, which is none of those that hold none.

@@ -4,7 +4,7 @@ use gumption_core::quantity::Unit;
 
 use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::printed::Printed;
-use crate::read::{probability_of_factor, unusual_level, usual_levels};
+use crate::read::{FIXED, probability_of_factor, unusual_level, usual_levels};
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report, t};
@@ -189,7 +189,22 @@ fn usual_factors(claimed: &Claimed) -> Vec<Factor> {
     let levels = levels.chain(probability_of_factor(&claimed.words));
     let levels = levels.chain(stated.and_then(level_of_factor));
     let fixed = stated.into_iter().chain([2.0]).map(Factor::Fixed);
-    fixed.chain(levels.map(Factor::StudentT)).collect()
+    let looked_up = levels.map(Factor::StudentT);
+    match looks_up(claimed) {
+        true => looked_up.chain(fixed).collect(),
+        false => fixed.chain(looked_up).collect(),
+    }
+}
+
+/// Whether a sheet states its degrees of freedom, and a k that nobody fixes: it was looked up.
+fn looks_up(claimed: &Claimed) -> bool {
+    let footer = &claimed.footer;
+    let is_finite = footer
+        .nu_eff
+        .as_ref()
+        .is_some_and(|nu| nu.value.is_finite());
+    let k = footer.k.as_ref();
+    is_finite && k.is_some_and(|k| k.value != 2.0 && usual_factor(k).is_none())
 }
 
 /// The probability whose normal quantile is printed as this factor.
@@ -198,11 +213,10 @@ fn level_of_factor(k: f64) -> Option<f64> {
     [0.9, 0.99, 0.9973].into_iter().find(is_printed)
 }
 
-/// A stated factor that laboratories fix, other than 2.
+/// A stated factor that laboratories fix, other than 2; a workbook may hold the quantile with all its digits.
 fn usual_factor(k: &Printed) -> Option<f64> {
-    [1.96, 3.0, 2.58, 1.65]
-        .into_iter()
-        .find(|own| *own == k.value)
+    let printed = libm::round(100.0 * k.value) / 100.0;
+    FIXED.contains(&printed).then_some(k.value)
 }
 
 /// What the model gives for a row.

@@ -1,7 +1,7 @@
 //! Tables with a column of figures for each type of evaluation: `Type A (µm) | Type B (µm)`.
 
 use crate::printed::Printed;
-use crate::sheet::{Cell, Grid};
+use crate::sheet::{Cell, Grid, Head};
 
 use super::columns::{self, Role};
 use super::footer::{self, Whole};
@@ -88,9 +88,27 @@ impl Types {
             {
                 cells[self.columns[0]] = Cell::new(&self.head);
                 cells[self.columns[1]] = Cell::new("Type");
+                let at = made.rows.len() - 1;
+                made.heads.insert(at, self.heads(grid, head));
             }
         }
         made
+    }
+
+    /// The heads of the sheet itself, and as what they are taken.
+    fn heads(&self, grid: &Grid, head: usize) -> Vec<Head> {
+        let joined = columns::role(&self.head).map_or("?", |(role, _)| role.name());
+        let role = |column: usize, text: &str| match self.columns.contains(&column) {
+            true => joined,
+            false => columns::role(text).map_or("?", |(role, _)| role.name()),
+        };
+        let heads = grid.filled(head).map(|(column, cell)| Head {
+            row: head,
+            column,
+            text: cell.text.clone(),
+            role: role(column, &cell.text),
+        });
+        heads.collect()
     }
 
     /// Whether the figures of a row are what both types above it come to.

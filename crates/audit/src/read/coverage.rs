@@ -8,6 +8,19 @@ use crate::printed::{Printed, leading};
 use super::footer::{self, Whole};
 use super::words::{figure_after, has, named_probability};
 
+/// Whether a number may be a coverage factor: 1 is that of a standard uncertainty.
+pub fn is_factor(k: f64) -> bool {
+    k > 1.0 && k < 5.0
+}
+
+/// Whether a number is a factor that laboratories fix.
+pub fn is_fixed(k: f64) -> bool {
+    k == 2.0 || FIXED.contains(&k)
+}
+
+/// Factors other than 2 that laboratories fix: normal quantiles as they are printed, and 3.
+pub(crate) const FIXED: [f64; 4] = [1.96, 3.0, 2.58, 1.65];
+
 /// The rule for k, where the line states one.
 pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     let about = has(
@@ -74,7 +87,7 @@ pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
         return false;
     }
     match figure_after(lower, &["coverage factor", "包含因子", "k"]) {
-        Some(k) if (1.0..5.0).contains(&k.value) && may_be_rule(&k, claimed) => {
+        Some(k) if is_factor(k.value) && may_be_rule(&k, claimed) => {
             claimed.coverage = Coverage::Fixed(k.value);
             // A sentence of the statement claims its factor, too.
             true
@@ -121,7 +134,7 @@ pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
         &lower,
         &["dominat", "fixed", "占优", "主导", "约定值", "固定"],
     );
-    let k = figure_after(&lower, &["k"]).filter(|k| is_reason && (1.0..5.0).contains(&k.value));
+    let k = figure_after(&lower, &["k"]).filter(|k| is_reason && is_factor(k.value));
     if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {
         claimed.coverage = match k.value {
             1.65 => Coverage::OfRectangle,

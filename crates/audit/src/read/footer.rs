@@ -3,6 +3,7 @@
 use crate::claim::Footer;
 use crate::printed::{Place, Printed, leading};
 
+use super::coverage;
 use super::statement;
 use super::words::{compact, find, has};
 
@@ -230,7 +231,7 @@ pub fn factor_of_label(text: &str) -> Option<Printed> {
     let of_factor = WORDS.iter().find(|(whole, _)| *whole == Whole::Factor);
     let (_, keys) = of_factor?;
     let figure = super::words::figure_after(text, keys)?;
-    ((1.0..5.0).contains(&figure.value) && figure.unit.is_empty()).then_some(figure)
+    (coverage::is_factor(figure.value) && figure.unit.is_empty()).then_some(figure)
 }
 
 /// Whether a text is or begins with the name of a result whose small letter is the coverage factor: a scale factor K.
@@ -358,7 +359,7 @@ fn multiple_of_u(text: &str) -> Option<Printed> {
         let name = sides[0].trim_end();
         let (factor, behind) = leading(sides[1])?;
         let of_u = names_u(behind) || name.ends_with('U') && is_u_alone(behind);
-        ((1.0..5.0).contains(&factor.value) && of_u).then_some(factor)
+        (coverage::is_factor(factor.value) && of_u).then_some(factor)
     })
 }
 
@@ -377,7 +378,8 @@ fn factor_of_product(text: &str, measurand: &str) -> Option<Printed> {
         let (_, rest) = leading(second).filter(|_| is_product)?;
         let is_last = !super::words::starts_product(rest.trim_start());
         let is_made = is_last && leading(sides[1]).is_some();
-        ((1.0..5.0).contains(&factor.value) && is_made).then_some(factor)
+        // Any other one was looked up: U itself shows it.
+        (coverage::is_fixed(factor.value) && is_made).then_some(factor)
     })
 }
 

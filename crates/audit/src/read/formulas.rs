@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::claim::{Claimed, Stale};
+use crate::claim::{Claimed, Stale, Unplaced};
 use crate::printed::{Place, Printed};
 use crate::sheet::{Cell, Grid};
 
@@ -18,6 +18,20 @@ pub(super) fn stale(grid: &Grid, sheet: usize, rows: Range<usize>) -> Vec<Stale>
         cell.gives.map(|gives| Stale { at, formula, gives })
     };
     cells.filter_map(of).collect()
+}
+
+/// Formulas of a budget of which the file keeps no value, and which are not known here.
+pub(super) fn without_value(grid: &Grid, sheet: usize, rows: Range<usize>) -> Vec<Unplaced> {
+    let of_row = |row: usize| {
+        let cells = grid.rows[row].iter().enumerate();
+        let open = cells.filter(|(_, cell)| cell.lacks_value());
+        open.filter_map(move |(column, cell)| {
+            let at = Place { sheet, row, column };
+            let text = format!("={}", cell.formula.as_ref()?);
+            Some(Unplaced { at, text })
+        })
+    };
+    rows.flat_map(of_row).collect()
 }
 
 /// Whether u_c stands as a number where U and the computed cells of the rows are formulas.

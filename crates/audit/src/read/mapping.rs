@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::columns::Role;
 use crate::claim::Claimed;
+use crate::sheet::Grid;
 
 /// What somebody says of a sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,6 +35,16 @@ impl Mapping {
             .iter()
             .find(|(name, _)| name == head.trim())
             .map(|(_, role)| *role)
+    }
+
+    /// What is said of columns that a file does not have: their heads.
+    pub(crate) fn of_nothing<'m>(&'m self, grids: &'m [Grid]) -> impl Iterator<Item = &'m str> {
+        let has = |name: &str| {
+            let mut cells = grids.iter().flat_map(|grid| grid.rows.iter().flatten());
+            cells.any(|cell| cell.text.trim() == name)
+        };
+        let names = self.columns.iter().map(|(name, _)| name.as_str());
+        names.filter(move |name| !has(name))
     }
 
     /// Reads a mapping file.

@@ -60,7 +60,7 @@ mod wrapped;
 
 pub use columns::Role;
 pub(crate) use counts::count_before;
-pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
+pub(crate) use coverage::{FIXED, names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
@@ -381,6 +381,7 @@ fn budget(
     symbols_of_model(&mut raw, &mut claimed);
     let below = located.head + 1..bounds.end;
     table::of_columns(grid, sheet, &mut claimed);
+    table::freedom_of_cells(grid, sheet, &located, &mut claimed);
     table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
     if claimed.model.is_none()
         && let Some(y) = table::result(&raw, &claimed.footer)
@@ -390,6 +391,8 @@ fn budget(
     claimed.typed = formulas::typed(grid, sheet, &claimed);
     claimed.computed = formulas::is_formula(grid, sheet, &claimed.footer.u_c) == Some(true);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());
+    let open = formulas::without_value(grid, sheet, bounds.clone());
+    claimed.unplaced.extend(open);
     if located.has_bare_u_behind_c() {
         meant::u_by_sum(&mut claimed);
     }

@@ -122,8 +122,8 @@ struct Held<'a> {
     of_printed: Option<Figures>,
     /// What it gives with the coefficients that the laboratory rounded.
     of_coefficients: Option<Figures>,
-    /// What it gives as the root of a sum of squares, where u_c is the sum itself, or made of rounded contributions: ν_eff may
-    /// have been found from what was there before.
+    /// What it gives as the root of a sum of squares, where u_c is the sum itself, made of rounded contributions, or an old number: ν_eff
+    /// may have been found from what was there before.
     of_root: Option<Figures>,
     /// u_c as it is claimed.
     u_c: Option<Printed>,
@@ -149,7 +149,7 @@ impl<'a> Held<'a> {
         };
         let is_after = matches!(
             calculation.combined,
-            Combined::Squares | Combined::Rounded(_)
+            Combined::Squares | Combined::Rounded(_) | Combined::Typed(_)
         );
         let u_c = case.claimed.footer.u_c.as_ref();
         Held {

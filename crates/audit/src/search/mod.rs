@@ -66,14 +66,12 @@ pub fn search(claimed: &Claimed) -> Found<'_> {
         case.right.factor = factor;
         of_rule(case)
     });
-    // Where the sheet states no rule for k, the one that needs the fewest slips is the laboratory's.
-    let slips = |found: &Found<'_>| {
-        found
-            .explanations
-            .first()
-            .map_or(usize::MAX, |e| e.acts.len())
+    // Where the sheet states no rule for k, the one that needs the fewest slips is the laboratory's, or leaves the fewest gaps.
+    let departs = |found: &Found<'_>| {
+        let slips = found.explanations.first().map(|best| best.acts.len());
+        (slips.unwrap_or(usize::MAX), found.gaps.len())
     };
-    let best = by_rule.min_by_key(slips);
+    let best = by_rule.min_by_key(departs);
     best.unwrap_or_else(|| of_rule(case))
 }
 
@@ -102,7 +100,16 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .filter_map(|(i, o)| o.broken.map(|figure| Gap::Row(i, figure)))
         .collect();
     let asked = asked(&explanations, &bases);
-    let is_named = broken.is_empty() && is_no_accident(&options, &chance, &acts, asked);
+    let is_shown = |one: &Explanation| {
+        let mut acts = one.acts.iter();
+        !one.acts.is_empty() && acts.all(|act| slips::is_shown_by_formula(&case, act))
+    };
+    // What the workbook itself shows needs no other explanation.
+    if explanations.iter().any(is_shown) {
+        explanations.retain(is_shown);
+    }
+    let is_named = broken.is_empty()
+        && (explanations.iter().any(is_shown) || is_no_accident(&options, &chance, &acts, asked));
     let withheld = if is_named { 0 } else { explanations.len() };
     if !is_named {
         explanations.clear();
@@ -163,10 +170,26 @@ fn gaps(
     let of_base = |(_, start): &(Vec<Act>, Calculation)| check(case, start, printed).gaps();
     let fewest = bases.iter().map(of_base).min_by_key(Vec::len);
     let mut gaps = fewest.unwrap_or_default();
+    // What follows from a wrong u_c is wrong there, and nowhere else.
+    if gaps.contains(&Gap::Sum) && follows_from_sum(case) {
+        gaps.retain(|gap| *gap != Gap::Expanded);
+    }
     if gaps.is_empty() && !is_printed(case, &right.figures, &right.figures, right.open) {
         gaps.push(Gap::Expanded);
     }
     gaps
+}
+
+/// Whether U is the product of u_c and k as they are claimed, or of u_c and the k of the rule.
+fn follows_from_sum(case: &Case<'_>) -> bool {
+    let footer = &case.claimed.footer;
+    let k = footer.k.as_ref().map(|k| k.value);
+    let k = k.unwrap_or_else(|| case.right.figures(&[], None).k);
+    let both = footer.u_c.as_ref().zip(footer.expanded.as_ref());
+    both.is_some_and(|(u_c, expanded)| {
+        let open = expanded.half_of_digits() + k * u_c.half_of_digits();
+        expanded.is_met_within(k * u_c.value, open)
+    })
 }
 
 impl Found<'_> {

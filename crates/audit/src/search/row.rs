@@ -3,7 +3,7 @@
 use crate::calculate::{Case, Line};
 use crate::claim::{Row, Stated};
 use crate::printed::Printed;
-use crate::slips::{Act, Change, Group};
+use crate::slips::{Act, Change, Group, is_shown_by_formula};
 
 use super::chance;
 use super::check::Broken;
@@ -107,7 +107,12 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
     let contribution = row.contribution.as_ref().map(|c| c.value.abs());
     let contribution = contribution.or_else(summed);
     let explained = sets.first().is_some_and(|set| !set.is_empty());
-    let accident = if explained {
+    let is_old = [&row.u, &row.contribution].into_iter().flatten();
+    // A formula that gives another figure than its cell holds is no accident.
+    let is_shown = is_old
+        .into_iter()
+        .any(|figure| case.claimed.is_stale(figure));
+    let accident = if explained && !is_shown {
         accident(row, right, &own)
     } else {
         0.0
@@ -307,6 +312,9 @@ fn is_supported(row: &Row, act: &Act) -> bool {
 /// How much less usual a slip is than others that give the same figures: a factor of ten counts more than once, what
 /// fits anything counts most.
 pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
+    if is_shown_by_formula(case, act) {
+        return 0;
+    }
     let of_kind = match act.slip.id {
         "veff-wrong" | "c-wrong" | "hard-coded" => 6,
         "prefix" | "percent-ppm" | "U-unit" => 4,

@@ -1,6 +1,6 @@
 //! The functions of spreadsheets that budgets are computed with.
 
-use gumption_core::special::student_t_two_sided_quantile;
+use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
 
 /// The value of a function; nothing for one that is not known, or of other arguments than it takes.
 pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
@@ -19,19 +19,57 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
             let is_known = *outside > 0.0 && *outside < 1.0 && *nu >= 1.0;
             is_known.then(|| student_t_two_sided_quantile(1.0 - outside, libm::floor(*nu)))
         }
+        // Below, with whole degrees of freedom.
+        ("T.INV", [below, nu]) => {
+            let is_known = *below > 0.0 && *below < 1.0 && *nu >= 1.0;
+            is_known.then(|| {
+                let between = (2.0 * below - 1.0).abs();
+                let t = student_t_two_sided_quantile(between, libm::floor(*nu));
+                t.copysign(below - 0.5)
+            })
+        }
+        ("NORMSINV" | "NORM.S.INV", [below]) => normal_quantile(*below),
+        ("NORMINV" | "NORM.INV", [below, mean, deviation]) => {
+            Some(mean + deviation * normal_quantile(*below)?)
+        }
+        ("INT", [x]) => Some(libm::floor(*x)),
+        ("TRUNC", [x]) => Some(libm::trunc(*x)),
+        ("TRUNC", [x, places]) => Some(rounded(*x, *places, libm::trunc)),
+        ("LN", [x]) => Some(libm::log(*x)),
+        ("LOG10", [x]) => Some(libm::log10(*x)),
+        ("EXP", [x]) => Some(libm::exp(*x)),
         ("SUM", _) => Some(sum(|x| x)),
         ("SUMSQ", _) => Some(sum(|x| x * x)),
         ("COUNT", _) => Some(count),
         ("AVERAGE", [_, ..]) => Some(sum(|x| x) / count),
         ("MAX", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::max)),
         ("MIN", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::min)),
-        ("STDEV" | "STDEV.S", [_, _, ..]) => {
-            let mean = sum(|x| x) / count;
-            let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();
-            Some(libm::sqrt(squares / (count - 1.0)))
-        }
+        ("STDEV" | "STDEV.S", [_, _, ..]) => Some(libm::sqrt(squares(x) / (count - 1.0))),
+        ("STDEVP" | "STDEV.P", [_, ..]) => Some(libm::sqrt(squares(x) / count)),
+        ("VAR" | "VAR.S", [_, _, ..]) => Some(squares(x) / (count - 1.0)),
+        ("VARP" | "VAR.P", [_, ..]) => Some(squares(x) / count),
+        ("DEVSQ", [_, ..]) => Some(squares(x)),
+        ("MEDIAN", [_, ..]) => Some(median(x)),
         _ => None,
     }
+}
+
+/// The sum of the squares of deviations from the mean.
+fn squares(x: &[f64]) -> f64 {
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    x.iter().map(|x| (x - mean) * (x - mean)).sum()
+}
+
+fn median(x: &[f64]) -> f64 {
+    let mut sorted = x.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = ((sorted.len() - 1) / 2, sorted.len() / 2);
+    (sorted[low] + sorted[high]) / 2.0
+}
+
+fn normal_quantile(below: f64) -> Option<f64> {
+    let is_known = below > 0.0 && below < 1.0;
+    is_known.then(|| normal_two_sided_quantile((2.0 * below - 1.0).abs()).copysign(below - 0.5))
 }
 
 /// To so many places, halves by what `to_whole` does with the figure that is shown: 2.675 is 2.68.
@@ -65,6 +103,13 @@ mod tests {
         // JCGM 100, table G.2: t₉₅(10) = 2.23.
         assert!((of("T.INV.2T", &[0.05, 10.9]) - 2.228_139).abs() < 1e-6);
         assert!((of("STDEV.S", &[1.0, 2.0, 3.0]) - 1.0).abs() < 1e-15);
+        assert!((of("T.INV", &[0.975, 10.0]) - 2.228_139).abs() < 1e-6);
+        assert!((of("T.INV", &[0.025, 10.0]) + 2.228_139).abs() < 1e-6);
+        assert!((of("NORMSINV", &[0.975]) - 1.959_964).abs() < 1e-6);
+        assert!((of("NORM.INV", &[0.025, 1.0, 2.0]) + 2.919_928).abs() < 1e-6);
+        assert_eq!([of("INT", &[40.1]), of("INT", &[-0.5])], [40.0, -1.0]);
+        assert!((of("STDEVP", &[1.0, 2.0, 3.0]) - 0.816_496_6).abs() < 1e-6);
+        assert_eq!(of("MEDIAN", &[5.0, 1.0, 2.0, 4.0]), 3.0);
         for strange in [[0.05, 0.5], [2.0, 10.0], [f64::NAN, f64::NAN]] {
             assert!(value("TINV", &strange).is_none());
         }

@@ -7,39 +7,71 @@ use super::{Cell, Grid, functions};
 
 /// Notes in every cell of a workbook that its formula gives another figure than it holds.
 pub(crate) fn mark(book: &mut [Grid]) {
-    for sheet in 0..book.len() {
-        let found = marks(book, sheet);
-        for (row, column, gives) in found {
-            book[sheet].rows[row][column].gives = Some(gives);
-        }
+    let sheets = 0..book.len();
+    let all: Vec<Computed> = sheets
+        .flat_map(|sheet| computed_cells(book, sheet))
+        .collect();
+    let is_exact = are_exact(&all);
+    for cell in all.iter().filter(|cell| cell.is_stale(is_exact)) {
+        let (sheet, row, column) = cell.at;
+        book[sheet].rows[row][column].gives = Some(cell.gives.x);
     }
 }
 
-/// Cells of a sheet with what their formulas give in the place of what they hold.
-fn marks(book: &[Grid], sheet: usize) -> Vec<(usize, usize, f64)> {
+/// A cell with a formula that can be computed here.
+struct Computed {
+    at: (usize, usize, usize),
+    /// The number that it holds, with the digits of its figure.
+    held: Printed,
+    /// What its formula gives of the cells that it names.
+    gives: Value,
+}
+
+impl Computed {
+    /// Whether it holds something else than its formula gives; of exact cells nothing is open.
+    fn is_stale(&self, is_exact: bool) -> bool {
+        let Value { x, open } = self.gives;
+        let open = if is_exact { 0.0 } else { open };
+        !self.held.is_met_within(x, self.held.half + open * x.abs())
+    }
+}
+
+/// Whether the cells of a workbook hold all digits, as spreadsheets compute them: most formulas whose cells hold many give them.
+fn are_exact(all: &[Computed]) -> bool {
+    /// More digits than anybody types or rounds to.
+    const MANY: usize = 9;
+    /// Some units of the last place of a double.
+    const LAST: f64 = 1e-13;
+    let many = || all.iter().filter(|cell| cell.held.digits > MANY);
+    let is_given = |cell: &&Computed| (cell.gives.x / cell.held.value - 1.0).abs() <= LAST;
+    2 * many().filter(is_given).count() > many().count()
+}
+
+fn computed_cells(book: &[Grid], sheet: usize) -> Vec<Computed> {
     let grid = &book[sheet];
-    let stale = |row: usize, column: usize| {
+    let computed = |row: usize, column: usize| {
         let cell = grid.cell(row, column);
         let formula = cell.formula.as_ref()?;
         let held = held(cell)?;
-        let Value { x, open } = value(book, sheet, formula)?;
+        let gives = value(book, sheet, formula)?;
         // A figure in per cent is a hundred times its number.
         let figure = cell.figure()?;
         let scale = match figure.value == 0.0 {
             true => 1.0,
             false => held.x / figure.value,
         };
-        let half = figure.half * scale.abs();
-        let number = Printed {
+        let held = Printed {
             value: held.x,
+            half: figure.half * scale.abs(),
             ..figure
         };
-        (!number.is_met_within(x, half + open * x.abs())).then_some((row, column, x))
+        let at = (sheet, row, column);
+        Some(Computed { at, held, gives })
     };
     let rows = 0..grid.rows.len();
     let places = rows.flat_map(|row| (0..grid.rows[row].len()).map(move |column| (row, column)));
     places
-        .filter_map(|(row, column)| stale(row, column))
+        .filter_map(|(row, column)| computed(row, column))
         .collect()
 }
 

@@ -13,6 +13,7 @@ mod slip;
 mod whole;
 
 pub(crate) use result::{is_open, of_result, of_unit, other_result};
+pub(crate) use rows::is_shown_by_formula;
 pub(crate) use whole::{exchanged_digits, rounded};
 
 pub use slip::{Act, Change, Group, Reporting, Slip, Weight};

@@ -5,7 +5,7 @@ use crate::claim::{Figure, RANGE, Relative, Row, Shape, Stated, range_factor};
 use crate::printed::{Printed, leading};
 use crate::units;
 
-use super::slip::{Change, Reporting, Slip, Weight::*};
+use super::slip::{Act, Change, Reporting, Slip, Weight::*};
 
 /// What a slip makes of one row; nothing where it cannot act.
 type InRow = fn(&Row) -> Vec<f64>;
@@ -308,13 +308,13 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "the uncertainty of the reference itself is not in the budget",
         zh: "漏计标准器本身的不确定度",
         acts: |case| each(case, |_, row| if row.is_absent { vec![Change::Counted(false)] } else { Vec::new() }) },
-    Slip { id: "hard-coded", rule: "82", weight: Warning,
+    Slip { id: HARD_CODED, rule: "82", weight: Warning,
         en: "a number stands where a formula belongs, or its formula was not computed again",
         zh: "应为公式的单元格中是固定数值，或公式修改后未重新计算",
         acts: |case| {
             let is_old = |u_c: &&Printed| case.claimed.typed || case.claimed.is_stale(u_c);
             let total = case.claimed.footer.u_c.as_ref().filter(is_old).map(|u_c| (None, Change::Combined(Combined::Typed(u_c.value))));
-            each(case, |i, _| typed(case, i)).into_iter().chain(total).collect()
+            each(case, |i, _| typed(case, i)).into_iter().chain(total).chain(old_product(case)).collect()
         } },
     Slip { id: "res-and-rep", rule: "31", weight: Warning,
         en: "the resolution was counted beside a repeatability that already contains it",
@@ -344,6 +344,33 @@ fn behind_u(row: &Row, line: crate::calculate::Line) -> Vec<f64> {
     let factors = [1e3, 1e-3].into_iter().filter(is_made);
     factors.map(|factor| factor * line.contribution()).collect()
 }
+
+/// U that its formula does not give, as a multiple of the right u_c.
+fn old_product(case: &Case<'_>) -> Option<(Option<usize>, Change)> {
+    let footer = &case.claimed.footer;
+    let expanded = footer
+        .expanded
+        .as_ref()
+        .filter(|own| case.claimed.is_stale(own))?;
+    let factor = expanded.value / case.right.figures(&[], None).u_c;
+    Some((None, Change::Report(Reporting::Factor(factor))))
+}
+
+/// Whether a slip is that a cell holds another figure than its formula gives, which the workbook itself shows.
+pub(crate) fn is_shown_by_formula(case: &Case<'_>, act: &Act) -> bool {
+    let footer = &case.claimed.footer;
+    let row = act.row.map(|row| &case.claimed.rows[row]);
+    let figure = match (row, act.change) {
+        (Some(row), Change::U(_)) => &row.u,
+        (Some(row), _) => &row.contribution,
+        (None, Change::Report(_)) => &footer.expanded,
+        (None, _) => &footer.u_c,
+    };
+    let is_old = |figure: &Printed| case.claimed.is_stale(figure);
+    act.slip.id == HARD_CODED && figure.as_ref().is_some_and(is_old)
+}
+
+const HARD_CODED: &str = "hard-coded";
 
 /// The computed figures of a row that are numbers, where those of most rows are formulas, or other figures than their
 /// formulas give.

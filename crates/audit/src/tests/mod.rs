@@ -14,8 +14,10 @@ mod others;
 mod points;
 mod reports;
 mod several;
+mod stated;
 mod statements;
 mod strangers;
+mod workbooks;
 
 use crate::read::Mapping;
 use crate::{Audit, Verdict, audit, read, sheet};

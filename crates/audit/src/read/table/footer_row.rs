@@ -34,8 +34,14 @@ pub(super) fn read(
         let mut rows = claimed.rows.iter();
         rows.any(|row| !row.symbol.is_empty() && row.symbol == text)
     };
+    // `U | Expanded uncertainty`: of the whole, though a voltage has the same symbol.
+    let is_called = |(_, text): &(usize, String)| {
+        let whole = footer::label(text, "").filter(|whole| *whole != Whole::Y);
+        whole.is_some() && text.contains(' ')
+    };
+    let is_of_row = || of_row(&cells[0].1) && !is_called(&cells[1]);
     let is_claim = || cells.iter().any(|(column, _)| is_claim(grid, row, *column));
-    if cells.len() < 2 || of_row(&cells[0].1) || is_claim() {
+    if cells.len() < 2 || is_of_row() || is_claim() {
         return false;
     }
     let surroundings = Surroundings::of(grid, row, &cells, located, &claimed.measurand);
@@ -56,6 +62,8 @@ pub(super) fn read(
         };
         match grid.cell(row, *column).figure() {
             None => reading.words(place, text),
+            // The figure of the label is one that the file does not keep, and no other.
+            Some(_) if surroundings.lacks_value_in_front(position) => reading.open = None,
             Some(figure) => {
                 if reading.figure(position, figure.at(place), text).is_break() {
                     break;
@@ -113,6 +121,13 @@ impl<'a> Surroundings<'a> {
     fn role(&self, column: usize) -> Option<Role> {
         let mut columns = self.located.columns.iter().filter(|_| self.is_inside);
         columns.find(|c| c.index == column).map(|c| c.role)
+    }
+
+    /// Whether the cells between a cell and the one in front of it hold a formula without its value.
+    fn lacks_value_in_front(&self, position: usize) -> bool {
+        let column = |position: usize| self.cells.get(position).map_or(0, |(column, _)| *column);
+        let from = position.checked_sub(1).map_or(0, column);
+        (from + 1..column(position)).any(|column| self.grid.cell(self.row, column).lacks_value())
     }
 
     /// Whether a figure stands in the column of the contributions.

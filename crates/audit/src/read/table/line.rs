@@ -8,6 +8,7 @@ use crate::read::words::{alone, has};
 use crate::sheet::Grid;
 use crate::units;
 
+use super::freedom;
 use super::located::{Column, Located};
 use super::raw::{Raw, positive};
 
@@ -57,7 +58,7 @@ impl<'a> Line<'a> {
                 u: self.figure(Role::U).map(positive),
                 c: self.figure(Role::C),
                 contribution: self.figure(Role::Contribution),
-                dof: self.figure(Role::Dof).map(as_infinite),
+                dof: self.dof(),
                 unit: alone(self.unit_beside(0)).to_string(),
                 is_hidden: self.grid.hidden_rows.contains(&self.row),
                 distribution: self.text(Role::Distribution),
@@ -107,6 +108,17 @@ impl<'a> Line<'a> {
             figure.unit.clear();
         }
         Some(figure)
+    }
+
+    /// Degrees of freedom, if need be those that there are at least or about.
+    fn dof(self) -> Option<Printed> {
+        let stated = || {
+            let column = self.located.column(Role::Dof)?;
+            let place = self.place(column.index);
+            Some(freedom::about(self.text_in(column))?.at(place))
+        };
+        let dof = self.figure(Role::Dof).or_else(stated);
+        dof.map(freedom::as_infinite)
     }
 
     fn formula(self, role: Role) -> Option<String> {
@@ -195,15 +207,4 @@ fn is_share(head: &str) -> bool {
         || lower.contains(['%', '％'])
         || has(&lower, &["贡献率", "占比", "百分比"]);
     said && !footer::is_relative(head)
-}
-
-/// Degrees of freedom from here on are as good as infinitely many: spreadsheets write `1E+99`.
-fn as_infinite(dof: Printed) -> Printed {
-    const MANY: f64 = 1e5;
-    let value = if dof.value >= MANY {
-        f64::INFINITY
-    } else {
-        dof.value
-    };
-    Printed { value, ..dof }
 }

@@ -11,6 +11,7 @@
 //! | `line` | one row, as it stands on the sheet |
 //! | `raw` | a row with what is needed to interpret it |
 //! | `rows` | all rows with their figures |
+//! | `freedom` | degrees of freedom in words |
 //! | `sources` | rows that are called as figures of the whole are, and rows below u_c |
 //! | `closing` | the row of the result, which closes a table |
 //! | `product` | tables of a product, by their relative uncertainties |
@@ -23,6 +24,7 @@ mod closing;
 mod content;
 mod footer_row;
 mod footers;
+mod freedom;
 mod head;
 mod interpret;
 mod labels;
@@ -38,6 +40,7 @@ mod sources;
 
 pub use closing::{closing, figures_of_result, is_like_source, symbol_of_result};
 pub use footers::{footers, footers_beside, of_columns};
+pub use freedom::of_cells as freedom_of_cells;
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;

@@ -27,6 +27,7 @@
 //! | `series` | readings beside a table |
 //! | `simulated` | statements of Monte Carlo |
 //! | `turned` | tables whose rows and columns are exchanged |
+//! | `unread` | lines that may state U, and are not understood |
 //! | `words` | words and figures in texts |
 //! | `wrapped` | sentences that go on in the next line |
 
@@ -55,6 +56,7 @@ mod simulated;
 mod statement;
 mod table;
 mod turned;
+mod unread;
 mod words;
 mod wrapped;
 
@@ -66,6 +68,7 @@ pub use mapping::Mapping;
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
+pub use unread::expanded as unread_expanded;
 pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, symbol_at};
 
 use std::ops::Range;

@@ -11,6 +11,10 @@ use super::row::Options;
 /// More places than this are tried one at a time: pairs would take seconds, and match anything.
 const MOST_FOR_PAIRS: usize = 700;
 
+/// Rows that are computed for pairs of slips, at most this many: a second or two. Of a budget of so many rows that this is not
+/// enough, each slip is tried alone.
+const MOST_ROWS_FOR_PAIRS: usize = 1 << 24;
+
 /// Choices of slips that explain the rows, at most this many.
 const MOST_BASES: usize = 24;
 
@@ -105,11 +109,7 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Tries every set that the rows show by itself, then with one further slip, then with two: as many as the first match
     /// needs. `read` slips are in every set.
     pub(super) fn search(&mut self, bases: &[(Vec<Act>, Calculation)], read: usize) {
-        let most = if self.free.len() > MOST_FOR_PAIRS {
-            1
-        } else {
-            2
-        };
+        let most = if self.allows_pairs() { 2 } else { 1 };
         let of_rounding = |act: &Act| matches!(act.change, Change::Report(Reporting::Down));
         let fewest = bases.first().map_or(0, |(set, _)| set.len());
         for extra in 0..=most {
@@ -128,6 +128,13 @@ impl<'s, 'a> Search<'s, 'a> {
                 break;
             }
         }
+    }
+
+    /// Whether pairs of slips take no more than a second or two.
+    fn allows_pairs(&self) -> bool {
+        let places = self.free.len();
+        let rows = places * places / 2 * self.case.claimed.rows.len();
+        places <= MOST_FOR_PAIRS && rows <= MOST_ROWS_FOR_PAIRS
     }
 
     /// Tries a set with this many further slips of those that are free.

@@ -153,3 +153,22 @@ fn a_source_above_the_sum_is_no_result() {
          u_c(l),,,,32,16\nU99 = 2.92 × 32 nm = 93 nm\n",
     );
 }
+
+/// What stands below u_c and is not understood is no source, and is said where no U is.
+#[test]
+fn a_line_that_may_state_u_is_told() {
+    for (whole, line) in [
+        ("u_c,,,0.61\nEMU,,,5.0", Some("EMU ; 5.0")),
+        (
+            "u_c,,,0.61\n\nThe uncertainty for customers is 5.0 mV",
+            Some("The uncertainty for customers is 5.0 mV"),
+        ),
+        ("u_c,,,0.61\n\nTemperature 20 °C", None),
+    ] {
+        let sheet = summed(whole);
+        let claims = crate::claims("sheet.csv", sheet.as_bytes(), &Mapping::default()).unwrap();
+        assert_eq!(claims[0].rows.len(), 4, "{whole}");
+        let told = crate::read::unread_expanded(&claims[0]);
+        assert_eq!(told.map(|line| line.text.as_str()), line, "{whole}");
+    }
+}

@@ -127,3 +127,12 @@ fn u_of_points_has_its_factor_in_the_head() {
         assert_eq!(crate::audit(claimed).verdict, Verdict::Sound);
     }
 }
+
+/// Of many rows each slip is tried alone: pairs would take minutes, and match anything.
+#[test]
+fn many_rows_are_searched_soon() {
+    let rows: String = (0..500).map(|i| format!("A{i},10,0.1,1,0.1\n")).collect();
+    let sheet =
+        format!("Quantity,Estimate,u,c,Contribution\n{rows}u_c,,,,2.236\nk,2,,,\nU,,,,6.7\n");
+    assert_eq!(first("sheet.csv", &sheet), "k-other");
+}

@@ -2,6 +2,7 @@
 
 use gumption_audit::claim::{RoundingStated, Row, Shape, Stated};
 use gumption_audit::printed::Printed;
+use gumption_audit::read::unread_expanded;
 use gumption_audit::search::{Broken, Gap};
 use gumption_audit::slips::Change;
 use gumption_audit::{Audit, Verdict};
@@ -262,10 +263,16 @@ fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
             )
         }
         None if audit.found.case.claimed.is_simulated() => say!("The U of Monte Carlo that is stated was not recomputed; by the law of propagation it is {before}.").in_language(language),
-        None => pick(
-            format!("No U is claimed; it is {before}."),
-            format!("没有声称 U；{before}。"),
-        ),
+        None => match unread_expanded(audit.found.case.claimed) {
+            Some(line) => {
+                let line = &line.text;
+                say!("No U is understood, which may stand in the line “{line}”; it is {before}.").in_language(language)
+            }
+            None => pick(
+                format!("No U is claimed; it is {before}."),
+                format!("没有声称 U；{before}。"),
+            ),
+        },
     };
     vec![format!("{verdict}{}{u}", language.pick(" ", ""))]
 }

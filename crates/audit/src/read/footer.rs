@@ -3,7 +3,7 @@
 use crate::claim::Footer;
 use crate::printed::{Place, Printed, leading};
 
-use super::coverage;
+use super::factor::{is_factor, is_fixed};
 use super::statement;
 use super::words::{compact, find, has};
 
@@ -231,7 +231,7 @@ pub fn factor_of_label(text: &str) -> Option<Printed> {
     let of_factor = WORDS.iter().find(|(whole, _)| *whole == Whole::Factor);
     let (_, keys) = of_factor?;
     let figure = super::words::figure_after(text, keys)?;
-    (coverage::is_factor(figure.value) && figure.unit.is_empty()).then_some(figure)
+    (is_factor(figure.value) && figure.unit.is_empty()).then_some(figure)
 }
 
 /// Whether a text is or begins with the name of a result whose small letter is the coverage factor: a scale factor K.
@@ -359,7 +359,7 @@ fn multiple_of_u(text: &str) -> Option<Printed> {
         let name = sides[0].trim_end();
         let (factor, behind) = leading(sides[1])?;
         let of_u = names_u(behind) || name.ends_with('U') && is_u_alone(behind);
-        (coverage::is_factor(factor.value) && of_u).then_some(factor)
+        (is_factor(factor.value) && of_u).then_some(factor)
     })
 }
 
@@ -379,7 +379,7 @@ fn factor_of_product(text: &str, measurand: &str) -> Option<Printed> {
         let is_last = !super::words::starts_product(rest.trim_start());
         let is_made = is_last && leading(sides[1]).is_some();
         // Any other one was looked up: U itself shows it.
-        (coverage::is_fixed(factor.value) && is_made).then_some(factor)
+        (is_fixed(factor.value) && is_made).then_some(factor)
     })
 }
 

@@ -13,6 +13,7 @@
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
 //! | `converter` | the step of a converter, from its bits and range |
+//! | `factor` | numbers that may be coverage factors |
 //! | `footer` | claimed figures of the whole |
 //! | `formulas` | what the formulas of a workbook give away |
 //! | `meant` | what figures are of which the head leaves it open: the sums of the sheet tell |
@@ -39,6 +40,7 @@ mod columns;
 mod converter;
 mod counts;
 mod coverage;
+mod factor;
 mod footer;
 mod formulas;
 mod kind;
@@ -62,7 +64,8 @@ mod wrapped;
 
 pub use columns::Role;
 pub(crate) use counts::count_before;
-pub(crate) use coverage::{FIXED, names_level, probability_of_factor, unusual_level, usual_levels};
+pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
+pub(crate) use factor::FIXED;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;

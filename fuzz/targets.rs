@@ -258,7 +258,7 @@ pub fn program(bytes: &[u8]) {
 fn read_and_imported(name: &str, bytes: &[u8]) {
     let mapping = Mapping::default();
     let claims = audit::claims(name, bytes, &mapping);
-    let files = audit::budget_files(name, bytes, &mapping);
+    let files = audit::budget_files(name, bytes, &mapping, Language::English);
     assert_eq!(claims.is_ok(), files.is_ok());
     match files {
         Ok(files) => {

@@ -210,7 +210,12 @@ impl Input<'_> {
             let label = row.label();
             return format!("\n{}", self.remark(say!("{label} is not counted: {why}")));
         }
-        let _ = write!(text, "\n[input.{}]\n", self.name);
+        // Of what is known exactly no uncertainty is stated.
+        let kind = match self.is_exact() {
+            true => "constant",
+            false => "input",
+        };
+        let _ = write!(text, "\n[{kind}.{}]\n", self.name);
         let description = if row.name.is_empty() {
             row.label()
         } else {
@@ -231,7 +236,15 @@ impl Input<'_> {
         if units::parse(&unit).is_some() {
             let _ = writeln!(text, "unit = {}", quoted(&unit));
         }
-        text + &self.knowledge(&unit)
+        match self.is_exact() {
+            true => text,
+            false => text + &self.knowledge(&unit),
+        }
+    }
+
+    /// Whether the sheet states neither a figure of its uncertainty nor one from which that follows.
+    fn is_exact(&self) -> bool {
+        self.row.stated == Stated::Nothing && self.case.right.lines[self.line].u == 0.0
     }
 
     /// The unit of the estimate, or of the result for a contribution.
@@ -274,14 +287,11 @@ impl Input<'_> {
         if self.row.relative != Relative::No {
             text += &self.remark(say!("Relative on the sheet."));
         }
-        let standard = || {
-            let dof = if line.dof.is_finite() {
-                format!("\ndof = {}", number(line.dof))
-            } else {
-                String::new()
-            };
-            format!("u = {}{dof}\n", number(line.u * self.factor(unit)))
+        let dof = match line.dof.is_finite() {
+            true => format!("dof = {}\n", number(line.dof)),
+            false => String::new(),
         };
+        let standard = || format!("u = {}\n{dof}", number(line.u * self.factor(unit)));
         let limits = |half: f64, shape: Shape| {
             let distribution = match shape {
                 Shape::Rectangular => String::new(),
@@ -292,7 +302,8 @@ impl Input<'_> {
                 }
                 Shape::Normal(_) | Shape::TwoPoint => return standard(),
             };
-            format!("half_width = {}\n{distribution}", number(half * factor))
+            let half = number(half * factor);
+            format!("half_width = {half}\n{distribution}{dof}")
         };
         text += &match &self.row.stated {
             Stated::Certificate {
@@ -304,10 +315,12 @@ impl Input<'_> {
                     true => String::new(),
                     false => self.remark(say!("The sheet does not state k.")),
                 };
-                format!(
-                    "{open}certificate = {{ U = {}, k = {k:?} }}\n",
-                    scaled(expanded)
-                )
+                let expanded = scaled(expanded);
+                let dof = match dof.trim_end() {
+                    "" => String::new(),
+                    dof => format!(", {dof}"),
+                };
+                format!("{open}certificate = {{ U = {expanded}, k = {k:?}{dof} }}\n")
             }
             Stated::Limits {
                 half_width,
@@ -321,7 +334,7 @@ impl Input<'_> {
                 format!("{open}{}", limits(half_width.value, *shape))
             }
             Stated::FullWidth { width, shape } => limits(width.value / 2.0, *shape),
-            Stated::Step { step } => format!("step = {}\n", scaled(step)),
+            Stated::Step { step } => format!("step = {}\n{dof}", scaled(step)),
             Stated::Unequal { plus, minus } => {
                 let value = self
                     .row
@@ -330,7 +343,7 @@ impl Input<'_> {
                     .filter(|_| self.of_model)
                     .map_or(0.0, |v| v.value);
                 let (low, high) = (value - minus.value * factor, value + plus.value * factor);
-                format!("limits = [{}, {}]\n", number(low), number(high))
+                format!("limits = [{}, {}]\n{dof}", number(low), number(high))
             }
             Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
                 let of = match *m {

@@ -486,11 +486,24 @@ fn is_closed_below(grid: &Grid, row: usize) -> bool {
     })
 }
 
+/// Whether the row right below one states u_c in the column of the contributions, and another figure than that of the row:
+/// then it is no row of the result, which has the same.
+fn is_summed_below(grid: &Grid, row: &Row) -> bool {
+    let Some(own) = &row.contribution else {
+        return false;
+    };
+    let below = row.at.row + 1;
+    let label = grid.filled(below).next();
+    let label = label.and_then(|(_, cell)| footer::label(&cell.text, ""));
+    let sum = grid.cell(below, own.at.column).figure();
+    label == Some(footer::Whole::Combined) && sum.is_some_and(|sum| sum.value != own.value)
+}
+
 /// The last row of a table in the form of EA-4/02 is that of the result.
 fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
     let named = raw.iter().position(|raw| raw.is_result(&claimed.measurand));
     let is_source =
-        |place: &usize| table::is_like_source(raw) && is_closed_below(grid, raw[*place].row.at.row);
+        |place: &usize| table::is_like_source(raw) && is_summed_below(grid, &raw[*place].row);
     let closing = || table::closing(raw).filter(|place| !is_source(place));
     let product = table::product(raw).filter(|_| claimed.model.is_none());
     let product = product.filter(|place| !is_closed_below(grid, raw[*place].row.at.row));

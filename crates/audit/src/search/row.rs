@@ -3,7 +3,7 @@
 use crate::calculate::{Case, Line};
 use crate::claim::{Row, Stated};
 use crate::printed::Printed;
-use crate::slips::{Act, Change, Group, is_shown_by_formula};
+use crate::slips::{Act, Change, Group};
 
 use super::chance;
 use super::check::Broken;
@@ -312,9 +312,6 @@ fn is_supported(row: &Row, act: &Act) -> bool {
 /// How much less usual a slip is than others that give the same figures: a factor of ten counts more than once, what
 /// fits anything counts most.
 pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
-    if is_shown_by_formula(case, act) {
-        return 0;
-    }
     let of_kind = match act.slip.id {
         "veff-wrong" | "c-wrong" | "hard-coded" => 6,
         "prefix" | "percent-ppm" | "U-unit" => 4,

@@ -109,3 +109,45 @@ fn a_remark_is_no_rule() {
         is_sound(&of_many(&format!("U (k = 2) = 0.75 g\n{remark}")));
     }
 }
+
+/// Degrees of freedom of a row of type B are imported, and a row without uncertainty is a constant.
+#[test]
+fn an_import_keeps_degrees_of_freedom_and_constants() {
+    let import = |sheet: &str| {
+        let mapping = Mapping::default();
+        let files = budget_files("sheet.csv", sheet.as_bytes(), &mapping, Language::English);
+        files.unwrap().remove(0)
+    };
+    let rated = import(
+        "Source,Value (g),Distribution,Divisor,u (g),Degrees of freedom\n\
+         Calibration U=0.6 g k=2,0.6,normal,2,0.300,50\nLinearity ±0.2 g,0.2,rectangular,√3,0.115,12\n\
+         u_c,,,,0.321,\nU (k=2),,,,0.64,\n",
+    );
+    assert!(
+        rated.contains("certificate = { U = 0.6, k = 2.0, dof = 50 }"),
+        "{rated}"
+    );
+    assert!(rated.contains("half_width = 0.2\ndof = 12\n"), "{rated}");
+    let exact = import(
+        "Multimeter\nE_X = V_iX - V_S + d_V\n\
+         quantity,estimate,standard uncertainty,probability distribution,sensitivity coefficient,uncertainty contribution\n\
+         V_iX,100.1 V,-,-,-,-\nV_S,100.0 V,0.001 V,normal,-1.0,-0.001 V\nd_V,0.0 V,0.029 V,rectangular,1.0,0.029 V\n\
+         E_X,0.1 V,,,,0.029 V\nU = 2 × 0.029 V = 0.058 V\n",
+    );
+    assert!(
+        exact.contains("[constant.V_iX]\n") && !exact.contains("u = 0\n"),
+        "{exact}"
+    );
+}
+
+/// The result may stand above u_c with the same figure, or apart from it.
+#[test]
+fn a_result_above_the_sum_is_no_source() {
+    for between in ["", "\n"] {
+        is_sound(&format!(
+            "Quantity,Nominal value,Std. uncertainty,Distr.,Sensitivity,u_i(y)\n\
+             E,980.4 mV,0.091,normal,1.1552,0.105\ntheta,30 °,0.020,rectangular,11.413,0.228\n\
+             K_1,1132.60 mV/g,,,,0.251\n{between}u_c,,,,,0.251\nU (k = 2),,,,,0.50\n"
+        ));
+    }
+}

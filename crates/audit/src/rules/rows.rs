@@ -406,20 +406,22 @@ fn listed_again(seen: &Seen<'_>) -> Vec<Hit> {
 
 /// A row beside another one that says to include it: `resolution 0.01 K` beside `repeatability incl. resolution`.
 fn included_again(seen: &Seen<'_>) -> Vec<Hit> {
-    let whole = |(i, row): (usize, &Row)| {
-        let mut others = rows(seen).filter(|(j, ..)| *j != i);
-        others.find_map(|(_, other, _)| includes(&other.words, row).then(|| other.label()))
+    let said = rows(seen).flat_map(|(i, row, _)| {
+        let parts = included(&row.words).into_iter();
+        parts.map(move |part| (i, row.label(), part))
+    });
+    let said: Vec<(usize, &str, String)> = said.collect();
+    let hit = |(i, row, _): (usize, &Row, &Line)| {
+        let name = row.name.to_lowercase();
+        let mut wholes = said.iter().filter(|(whole, ..)| *whole != i);
+        let (_, whole, _) = wholes.find(|(.., part)| name.contains(part.as_str()))?;
+        Some(without(seen, i, format!("{whole}: {}", row.label())))
     };
-    rows(seen)
-        .filter_map(|(i, row, _)| {
-            let whole = whole((i, row))?;
-            Some(without(seen, i, format!("{whole}: {}", row.label())))
-        })
-        .collect()
+    rows(seen).filter_map(hit).collect()
 }
 
-/// Whether words say that something includes what a row is called.
-fn includes(words: &str, row: &Row) -> bool {
+/// What words say that something includes.
+fn included(words: &str) -> Vec<String> {
     const INCLUDES: [&str; 10] = [
         "incl. ",
         "incl ",
@@ -432,15 +434,16 @@ fn includes(words: &str, row: &Row) -> bool {
         "包括",
         "含有",
     ];
-    let (lower, name) = (words.to_lowercase(), row.name.to_lowercase());
-    INCLUDES.iter().any(|key| {
-        let behind = lower.split_once(key).map_or("", |(_, behind)| behind);
+    let lower = words.to_lowercase();
+    let part = |key: &&str| {
+        let (_, behind) = lower.split_once(*key)?;
         let ends =
             |c: char| matches!(c, '(' | ')' | ',' | ';' | '）' | '，' | '。') || c.is_ascii_digit();
         let part = behind.split(ends).next().unwrap_or_default();
         let part = part.trim().trim_start_matches("the ");
-        part.chars().count() >= 3 && name.contains(part)
-    })
+        (part.chars().count() >= 3).then(|| part.to_owned())
+    };
+    INCLUDES.iter().filter_map(part).collect()
 }
 
 /// A row that should not be counted, with the U without it.

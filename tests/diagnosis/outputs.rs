@@ -67,6 +67,28 @@ fn a_run_in_another_unit_is_so_with_its_zero() {
     );
 }
 
+/// King's law with another exponent, which is fitted as one: not in proportion to what a small change does.
+#[test]
+fn an_exponent_is_fitted_as_it_is() {
+    for (seed, exponent) in [(5, 0.50), (6, 0.55), (7, 0.40)] {
+        let mut noise = Noise(seed);
+        let mut rows = "v [m/s],U [V]\n".to_owned();
+        for row in 0..36 {
+            let v = 0.5 * libm::pow(40.0, f64::from(row) / 35.0);
+            let square = 1.2 + 0.9 * libm::pow(v, exponent);
+            let _ = writeln!(rows, "{v:.3},{:.5}", square.sqrt() + 1e-4 * noise.normal());
+        }
+        let case = "equations = \"U = sqrt(A + B*(v/(1 'm/s'))^0.45)\"\n[columns]\nU = \"output\"\nv = \"stimulus\"\n[parameter]\nA = { start = 1, unit = \"V^2\" }\nB = { start = 1, unit = \"V^2\" }\n";
+        let found = diagnosed(&format!("king-{seed}"), &rows, case);
+        assert_eq!(first_names(&found), ["exponent"], "{found}");
+        let (estimate, u) = size(&found);
+        assert!(
+            (estimate - (exponent - 0.45)).abs() < 4.0 * u && u < 0.005,
+            "{estimate} ± {u}"
+        );
+    }
+}
+
 /// The root has no value somewhat beyond the recorded inputs, where forms are told from one another.
 #[test]
 fn a_model_may_have_no_value_beyond_its_inputs() {

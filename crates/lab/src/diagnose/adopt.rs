@@ -119,7 +119,8 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         terms.flat_map(|(at, free)| free.variation.terms.iter().map(move |term| (at, term)));
     for (effect, term) in terms {
         let written = term.written();
-        let column = (!stands_alone(term)).then(|| {
+        let has_column = !stands_alone(term) && term.exact("").is_none();
+        let column = has_column.then(|| {
             // Several outputs may follow the same, each by a size of its own.
             let known = columns.iter().find(|own| own.term.written() == written);
             known.map(|own| own.name.clone()).unwrap_or_else(|| {
@@ -140,9 +141,10 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         let is_new = shared.is_none();
         for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                let product = column
-                    .iter()
-                    .fold(parameter.clone(), |p, column| p + "*" + column);
+                let product = term.exact(&parameter).unwrap_or_else(|| {
+                    let columns = column.iter();
+                    columns.fold(parameter.clone(), |p, column| p + "*" + column)
+                });
                 equation.insert(fitted, response, term, &product);
             }
         }

@@ -1,5 +1,6 @@
 //! How well a model describes the recording: χ², residual scatter, prediction of what was held out.
 
+use gumption_core::special::{chi_squared_cdf, f_cdf};
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::baseline;
@@ -29,6 +30,21 @@ impl Quality {
     /// χ² per degree of freedom.
     pub fn reduced(&self) -> f64 {
         self.chi_squared / self.dof
+    }
+
+    /// Probability of a χ² as small by chance, where the noise is claimed and independent from row to row and that is next to
+    /// impossible: then it is claimed too large, or the readings do not scatter as they were taken.
+    pub fn quieter(&self, claimed: &Claimed) -> Option<f64> {
+        /// One recording in a thousand is told without reason.
+        const RARE: f64 = 0.001;
+        if claimed.is_estimated() || claimed.correlated.is_some() || self.dof < 1.0 {
+            return None;
+        }
+        let p = match claimed.dof.is_finite() {
+            true => f_cdf(self.reduced(), self.dof, claimed.dof),
+            false => chi_squared_cdf(self.chi_squared, self.dof),
+        };
+        (p < RARE).then_some(p)
     }
 
     /// Whether parts of the recording that the fit had not seen are predicted worse than by another model. ln s² of n errors has the

@@ -15,7 +15,7 @@ use gumption_lab::diagnose::{Diagnosis, Doubt};
 
 use super::labels::spoken;
 use super::names::{Names, quantity};
-use super::noise::noise;
+use super::noise::{noise, quieter};
 use super::statement::statement;
 use super::words::{chance, p_found, probability, unsettled};
 use super::{accounts, improvement, listed, open};
@@ -73,7 +73,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
         ),
         (
             l.pick("Noise", "噪声").into(),
-            noise(case, &diagnosis.noise, l),
+            noise(case, &diagnosis.noise, l) + &quieter(diagnosis, l),
         ),
         (l.pick("Test for a mismatch", "不一致检验").into(), test),
     ];

@@ -5,7 +5,7 @@ use crate::language::Language;
 use crate::number::{exact, freedom, significant};
 use gumption_fault::say;
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
-use gumption_lab::diagnose::{Claimed, Growth, Memory, Origin, Quantity, u_of_step};
+use gumption_lab::diagnose::{Claimed, Diagnosis, Growth, Memory, Origin, Quantity, u_of_step};
 
 use super::words::p_is;
 
@@ -61,6 +61,17 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
         + &tails(claimed, l)
         + &uneven(claimed, l)
         + &together(case, claimed, l)
+}
+
+/// That the residuals are smaller than the claim lets expect.
+pub(super) fn quieter(diagnosis: &Diagnosis, l: Language) -> String {
+    let adopted = diagnosis.adopted.as_ref();
+    let quality = adopted.map_or(&diagnosis.before, |adopted| &adopted.quality);
+    let Some(p) = quality.quieter(&diagnosis.noise) else {
+        return String::new();
+    };
+    let (reduced, p) = (significant(quality.reduced(), 2), p_is(p));
+    say!("; the residuals are smaller than it lets expect (χ²/ν = {reduced}, {p} of as small a one): it is claimed too large, or the readings do not scatter as readings do (rounded alike, averaged, computed)").in_language(l)
 }
 
 /// That errors of two outputs are not independent.

@@ -183,6 +183,7 @@ fn under(form: &Variation, rows: &Modifier) -> Vec<Term> {
     let terms = form.terms.iter().map(|term| Term {
         modifier: term.modifier.times(rows),
         written: term.written.as_ref().map(|written| written.times(rows)),
+        exact: None,
         ..term.clone()
     });
     terms.collect()

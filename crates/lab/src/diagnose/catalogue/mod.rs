@@ -252,6 +252,8 @@ pub struct Term {
     /// The same effect as it stands in the improved model, where the search takes another form, which
     /// differs from it by what the parameters absorb.
     written: Option<Modifier>,
+    /// The disturbance in the improved model, with `{}` for its size, where it is not in proportion to that.
+    exact: Option<String>,
     /// Whether it has the coefficient of the term before it: one disturbance, which reaches the responses
     /// in different ways.
     pub tied: bool,
@@ -265,8 +267,22 @@ impl Term {
             response: None,
             modifier,
             written: None,
+            exact: None,
             tied: false,
         }
+    }
+
+    /// With a formula of its size, `{}`, in the improved model: small ones are in proportion to what it follows.
+    #[must_use]
+    pub fn exactly(mut self, formula: String) -> Term {
+        self.exact = Some(formula);
+        self
+    }
+
+    /// The disturbance by a parameter, where that is not a factor of it.
+    pub fn exact(&self, parameter: &str) -> Option<String> {
+        let formula = self.exact.as_ref()?;
+        Some(formula.replace("{}", parameter))
     }
 
     /// With another form in the improved model.

@@ -113,7 +113,29 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let found = |change: f64| size_of(fitted, &Term::new(node, by(change))).map(two_digits);
     let change = found(0.0).map_or(0.0, |first| found(first).unwrap_or(first));
     let (id, form) = (EffectId::Exponent, form("", vec![by(change)]));
-    Some(on_node(fitted, id, fitted.label(column), node, [form]))
+    let mut cell = on_node(fitted, id, fitted.label(column), node, [form]);
+    // Zero has no logarithm, by which small changes go.
+    if range(x).0 > 0.0 {
+        let exactly = with_exponent(fitted, column, middle, exponent);
+        let terms = cell.variants.iter_mut().flat_map(|form| &mut form.terms);
+        terms.for_each(|term| *term = term.clone().exactly(exactly.clone()));
+    }
+    Some(cell)
+}
+
+/// What [`raised`] takes in proportion to the change of the exponent, as a formula of it.
+fn with_exponent(fitted: &FittedModel<'_>, column: usize, middle: f64, exponent: f64) -> String {
+    let label = fitted.label(column);
+    let unit = &fitted.case().columns[column].unit;
+    let part = match unit.is_one() {
+        true => format!("{label}/({middle})"),
+        false => format!("{label}/({middle} '{}')", unit.symbol),
+    };
+    let over = match exponent < 0.0 {
+        true => format!("({exponent})"),
+        false => exponent.to_string(),
+    };
+    format!("{label}*(({part})^({{}}/{over}) - 1)")
 }
 
 /// What a quantity would be for a power of it to have an exponent that is changed by so much, less what it is, for each unit of the

@@ -304,7 +304,7 @@ fn simulated(example: &Example, other: &Other<'_>, random: &mut StdRng) -> DVect
         }
     }
     let scatter = |response: usize| match example.found.scatter {
-        Scatter::Residuals => example.found.responses[response].own * other.weight[response],
+        Scatter::Residuals => example.found.responses[response].own,
         _ => 0.0,
     };
     let readings: Vec<f64> = (0..other.rows.len())

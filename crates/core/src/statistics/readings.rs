@@ -64,11 +64,13 @@ impl Series {
 
     /// Autocorrelation coefficient at a lag: Σ (x_i - x̄)(x_{i+k} - x̄) / Σ (x_i - x̄)².
     pub fn autocorrelation(&self, lag: usize) -> f64 {
-        let rounded: Vec<f64> = self.deviations().collect();
-        self.lagged(&rounded, lag)
+        let later = self.deviations.get(lag..).unwrap_or_default();
+        let pairs = self.deviations.iter().zip(later);
+        let products: Dd = pairs.map(|(a, b)| *a * *b).sum();
+        (products / self.squares).value()
     }
 
-    /// [`Series::autocorrelation`], of the deviations as doubles: they are near zero, so that rounding takes nothing away.
+    /// The same of deviations as doubles, to a digit or two less than all: there are thousands of lags.
     fn lagged(&self, deviations: &[f64], lag: usize) -> f64 {
         let later = deviations.get(lag..).unwrap_or_default();
         (sum_of_products(deviations, later) / self.squares).value()

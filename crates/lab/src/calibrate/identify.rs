@@ -231,7 +231,7 @@ fn combinations(
     }
     null.iter()
         .zip(&leads)
-        .map(|(vector, lead)| combination(vector, *lead, &lengths, parameters))
+        .map(|(vector, lead)| combination(vector, *lead, lengths, parameters))
         .collect()
 }
 

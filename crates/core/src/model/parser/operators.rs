@@ -130,9 +130,15 @@ impl Parser<'_> {
         let after = &self.text[token.span.clone()];
         let is_number = matches!(left.node, Node::Number { unit: None, .. });
         let help = if is_number && (self.is_unit)(after) {
-            say!(
-                "write `{before} '{after}'` if {after} is the unit, or `{before} * {after}` for a product"
-            )
+            // A letter is a quantity more often than a unit.
+            match after.chars().count() > 1 {
+                true => say!(
+                    "write `{before} '{after}'` if {after} is the unit, or `{before} * {after}` for a product"
+                ),
+                false => say!(
+                    "write `{before} * {after}`, or `{before} '{after}'` if {after} is the unit"
+                ),
+            }
         } else {
             let shown = before
                 .rsplit([' ', '+', '-', '*', '/', ',', '('])

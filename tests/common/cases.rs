@@ -87,3 +87,12 @@ pub fn first_labelled(diagnosis: &Value) -> (Vec<String>, String) {
         label.as_str().unwrap_or_default().to_owned(),
     )
 }
+
+/// The first coefficient of the first effect, with its standard uncertainty.
+pub fn first_size(diagnosis: &Value) -> (f64, f64) {
+    let figure = |key: &str| diagnosis["improved"]["coefficients"][0][key].as_f64();
+    (
+        figure("value").expect("an estimate"),
+        figure("u").expect("its uncertainty"),
+    )
+}

@@ -7,21 +7,14 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart};
+use crate::common::cases::{
+    diagnosed_with as diagnosed, first_names, first_size as size, named_apart,
+};
 
 /// The likeliest variant of an effect.
 fn variant(diagnosis: &Value, effect: usize) -> &str {
     let named = &diagnosis["effects"][effect]["named"][0];
     named["variants"][0]["label"].as_str().unwrap_or_default()
-}
-
-/// The first coefficient of the first effect.
-fn size(diagnosis: &Value) -> (f64, f64) {
-    let figure = |key: &str| diagnosis["improved"]["coefficients"][0][key].as_f64();
-    (
-        figure("value").expect("an estimate"),
-        figure("u").expect("its uncertainty"),
-    )
 }
 
 #[test]

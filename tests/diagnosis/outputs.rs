@@ -2,18 +2,8 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
-
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, first_names};
-
-fn size(diagnosis: &Value) -> (f64, f64) {
-    let figure = |key: &str| diagnosis["improved"]["coefficients"][0][key].as_f64();
-    (
-        figure("value").expect("an estimate"),
-        figure("u").expect("its uncertainty"),
-    )
-}
+use crate::common::cases::{diagnosed_with as diagnosed, first_names, first_size as size};
 
 /// One of three axes takes part in another one, and where noise is estimated its residuals hold that: F(1, 15) is some 800.
 #[test]

@@ -16,11 +16,6 @@ use crate::diagnose::fit::{self, Fit};
 use crate::diagnose::noise::Claimed;
 use crate::diagnose::settled;
 
-/// Whether a change of the residuals, in units of the noise, is more than noise in all.
-fn is_seen(change: &DVector<f64>) -> bool {
-    change.norm() > 1.0 && change.iter().all(|x| x.is_finite())
-}
-
 /// The declared model at the parameters of a fit with effects in it, as the catalogue sees it.
 pub(super) struct Beside {
     /// What that fit leaves and what its effects do along their slopes are the residuals: the whole is as good as it is when it is
@@ -159,7 +154,8 @@ impl<'i> Inquiry<'i> {
         };
         let told = &self.fit.residuals - &self.fit.jacobian * (&base.unknowns - &self.fit.unknowns);
         let bent = (&base.residuals - told).component_div(&claimed.u);
-        if !is_seen(&bent) && !is_seen(&turned) {
+        let changes = [&bent, &turned].into_iter();
+        if !changes.clone().all(is_finite) || !changes.into_iter().any(is_seen) {
             return None;
         }
         let claimed = match self.is_open() {
@@ -183,13 +179,8 @@ impl<'i> Inquiry<'i> {
                 other.coefficients() == own.coefficients()
                     && nodes.clone().any(|(own, other)| own.node != other.node)
             };
-            for other in self
-                .candidates
-                .cell(*atom)
-                .variants
-                .iter()
-                .filter(is_elsewhere)
-            {
+            let others = self.candidates.cell(*atom).variants.iter();
+            for other in others.filter(is_elsewhere) {
                 let acts = other.columns(beside) * DVector::from_column_slice(&sizes);
                 let so_far = other.columns(&self.candidates.fitted);
                 let slopes = evidence::all([fit.jacobian.clone(), so_far].into_iter());
@@ -201,4 +192,13 @@ impl<'i> Inquiry<'i> {
         }
         most
     }
+}
+
+/// Whether a change of the residuals, in units of the noise, is more than noise in all.
+fn is_seen(change: &DVector<f64>) -> bool {
+    change.norm() > 1.0
+}
+
+fn is_finite(change: &DVector<f64>) -> bool {
+    change.iter().all(|x| x.is_finite())
 }

@@ -128,10 +128,19 @@ impl OfRow {
     }
 }
 
+/// Whether an error is the noise of an output that `[noise]` tells.
+pub(super) fn is_of(doubt: &Doubt, output: &str) -> bool {
+    doubt.name == name_of(output)
+}
+
+fn name_of(output: &str) -> String {
+    format!("{output}.noise")
+}
+
 /// The noise of an output: an error of each reading.
 fn noise(output: String, unit: Unit, (u, dof): Scatter) -> Doubt {
     Doubt {
-        name: format!("{output}.noise"),
+        name: name_of(&output),
         acts: vec![Act {
             on: Target::Reading(output),
             coefficient: 1.0,

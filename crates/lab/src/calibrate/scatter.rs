@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
 use super::gain::{Gain, levels};
+use super::noise;
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
 use crate::experiment::{Doubt, Observed, Scope, Target};
@@ -212,11 +213,17 @@ fn stated_variance(stack: &Stack<'_>, row: &Row) -> f64 {
         .sum()
 }
 
+/// Of an output whose noise is told by itself, samples show nothing but that.
 fn sampled_variance(stack: &Stack<'_>, row: &Row) -> f64 {
-    let average = reading(stack, row).and_then(|(name, point)| {
-        let column = stack.campaign.points.column(name)?;
-        column.averages.get(point)?.as_ref()
-    });
+    let doubts = &stack.campaign.experiment.doubts;
+    let of_samples =
+        |(name, _): &(&str, usize)| !doubts.iter().any(|doubt| noise::is_of(doubt, name));
+    let average = reading(stack, row)
+        .filter(of_samples)
+        .and_then(|(name, point)| {
+            let column = stack.campaign.points.column(name)?;
+            column.averages.get(point)?.as_ref()
+        });
     average.map_or(0.0, |average| average.u * average.u)
 }
 

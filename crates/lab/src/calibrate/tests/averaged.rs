@@ -1,6 +1,6 @@
 //! Points that are averages of rows: what is stated of one row counts for each of them.
 
-use super::super::calibrate;
+use super::super::{Campaign, calibrate};
 use super::{campaign, near};
 
 const DWELLS: usize = 4;
@@ -20,13 +20,17 @@ fn csv() -> String {
     format!("x,pos,U,uu\n{}", lines.collect::<String>())
 }
 
-/// u and ν of the slope.
-fn slope(recording: &str, rest: &str) -> (f64, f64) {
+fn line(recording: &str, rest: &str) -> Campaign {
     let toml = format!(
         "title = \"Line\"\nequations = [\"U = K*x + b\"]\n[parameter]\nK = {{}}\nb = {{}}\n\
          [recording]\nfile = \"run.csv\"\n{recording}\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n{rest}\n"
     );
-    let found = calibrate(&campaign(&toml, &csv())).expect("coefficients");
+    campaign(&toml, &csv())
+}
+
+/// u and ν of the slope.
+fn slope(recording: &str, rest: &str) -> (f64, f64) {
+    let found = calibrate(&line(recording, rest)).expect("coefficients");
     let slope = &found.figures.coefficients[0];
     (slope.u, slope.dof)
 }
@@ -47,6 +51,17 @@ fn noise_of_a_row_averages() {
     for way in WAYS {
         let (u, _) = slope(way, "[noise]\nu = 0.03");
         near(u, expected(0.03), 1e-9);
+    }
+}
+
+/// The residuals are held against the noise that is stated, whether rows are averaged or not: samples show the same once more.
+#[test]
+fn stated_noise_is_expected_once() {
+    for way in WAYS {
+        let found = calibrate(&line(way, "[noise]\nu = 0.03")).expect("coefficients");
+        let test = found.responses[0].test.expect("a test");
+        let rows = if way == WAYS[0] { 1.0 } else { ROWS as f64 };
+        near(test.expected, 0.03 / rows.sqrt(), 1e-9);
     }
 }
 

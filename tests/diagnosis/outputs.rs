@@ -34,6 +34,54 @@ fn an_effect_in_one_output_is_not_weighed_by_what_it_left() {
     assert!((estimate - 0.003).abs() < 4.0 * u, "{estimate} ± {u}");
 }
 
+/// A triad, of which all axes have most of their noise in common; `warmth` is what a degree adds to the first.
+fn triad_shaken(seed: u64, warmth: f64) -> (String, &'static str) {
+    let mut noise = Noise(seed);
+    let mut rows = "T [degC],a [m/s^2],ux [V],uy [V],uz [V]\n".to_owned();
+    for row in 0..40 {
+        let temperature = 22.0 + 2.0 * libm::sin(f64::from(row) / 9.0) + 0.2 * noise.normal();
+        let a = f64::from(row * 17 % 40) / 20.0 - 1.0;
+        let shared = libm::sqrt(0.95) * noise.normal();
+        let mut error = || 1e-3 * (shared + libm::sqrt(0.05) * noise.normal());
+        let x = 0.1 + a + warmth * (temperature - 22.0) + error();
+        let y = 0.2 + 0.5 * a + error();
+        // Mounted the other way round: what shakes it has the other sign.
+        let z = -0.1 - 0.7 * a - error();
+        let _ = writeln!(rows, "{temperature:.3},{a},{x:.6},{y:.6},{z:.6}");
+    }
+    let case = "equations = [\"ux = bx + kx*a\", \"uy = by + ky*a\", \"uz = bz + kz*a\"]\n[columns]\nux = \"output\"\nuy = \"output\"\nuz = \"output\"\na = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.001 V\"\n";
+    (rows, case)
+}
+
+/// With errors that count as independent, 16 of these 24 recordings of nothing but noise would be explained by something.
+#[test]
+fn noise_that_outputs_have_in_common_is_no_effect() {
+    for seed in 0..24 {
+        let (rows, case) = triad_shaken(100 + seed, 0.0);
+        let found = diagnosed(&format!("shaken-{seed}"), &rows, case);
+        assert_eq!(found["verdict"], "none", "{found}");
+        let noise = found["noise"]["origin"].as_str().unwrap_or_default();
+        assert!(
+            noise.contains("ux, uy, uz in the same row go together"),
+            "{noise}"
+        );
+    }
+}
+
+/// What acts on one output alone is seen beside what all have in common, and is known the better for it: of its own noise the output
+/// has a twentieth of the variance.
+#[test]
+fn an_effect_is_seen_beside_noise_in_common() {
+    let (rows, case) = triad_shaken(7, 4e-4);
+    let found = diagnosed("shaken-warm", &rows, case);
+    assert_eq!(first_names(&found), ["temperature-offset"], "{found}");
+    let (estimate, u) = size(&found);
+    assert!(
+        (estimate - 4e-4).abs() < 4.0 * u && u < 6e-5,
+        "{estimate} ± {u}"
+    );
+}
+
 /// What is written in inches is written so with its zero: the factor is 1/25.4 and no other.
 #[test]
 fn a_run_in_another_unit_is_so_with_its_zero() {

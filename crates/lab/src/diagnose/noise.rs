@@ -188,6 +188,12 @@ impl Claimed {
         correlated.is_some_and(|one| one.memory.is_of_scale())
     }
 
+    /// Whether the recording shows that outputs have errors in common.
+    pub(super) fn is_in_common(&self) -> bool {
+        let correlated = self.correlated.as_ref();
+        correlated.is_some_and(|one| matches!(one.memory, Memory::InCommon { .. }))
+    }
+
     /// Whether it is left open that successive rows are correlated, though the recording does not show it.
     pub fn may_be_correlated(&self) -> bool {
         let correlated = self.correlated.as_ref();

@@ -17,6 +17,7 @@ use super::chance::in_proportion;
 use super::design::Design;
 use super::evidence::{self, Correlation, Noise, Refusal};
 use super::fit::Fit;
+use super::noise_outputs;
 use super::reduced::reduced;
 
 /// Fewer degrees of freedom cannot tell white from correlated noise.
@@ -50,6 +51,11 @@ pub struct Correlated {
 }
 
 impl Correlated {
+    /// Which of so many outputs have errors in the same row in common.
+    pub fn outputs_in_common(&self, outputs: usize) -> Vec<usize> {
+        noise_outputs::in_common(&self.correlation, outputs)
+    }
+
     /// The mean of the matrices that the recording allows. Variances of estimates are linear in the matrix, so that theirs
     /// are the means of what each law gives.
     pub(super) fn expected(&self) -> DMatrix<f64> {
@@ -93,6 +99,21 @@ pub enum Memory {
         /// Time constant; `None` where it is forgotten over all times alike.
         time_constant: Option<f64>,
     },
+    /// Outputs have this share of the variance in common, row by row.
+    InCommon {
+        /// Share of the variance.
+        share: f64,
+    },
+}
+
+/// What is as likely beforehand as white noise, all of it together.
+#[derive(PartialEq)]
+enum Kind {
+    White,
+    Wandering,
+    OfScale,
+    Rounding,
+    InCommon,
 }
 
 /// What the noise of a recording may be.
@@ -106,11 +127,16 @@ pub(super) struct Courses {
 
 /// Matrices that so many observations have at most: one for each law, and one where there are too many for laws.
 pub(super) fn laws(observations: usize) -> usize {
-    match observations > MOST_COMPARED {
-        true => 1,
+    let in_common = match observations > noise_outputs::MOST_COMPARED {
+        true => 0,
+        false => SHARES.len(),
+    };
+    let remembered = match observations > MOST_COMPARED {
+        true => 0,
         // On the response, and on its scale or the readings of a norm.
-        false => 1 + 2 * SHARES.len() * (CONSTANTS + 1),
-    }
+        false => 2 * SHARES.len() * (CONSTANTS + 1),
+    };
+    1 + in_common + remembered
 }
 
 /// How what wanders through the rows of a recording may be forgotten.
@@ -195,7 +221,7 @@ impl Courses {
     /// Where no other is asked for.
     pub(super) fn white(observations: usize) -> Courses {
         // Beyond these no other is compared with it.
-        let size = match observations > MOST_COMPARED {
+        let size = match observations > noise_outputs::MOST_COMPARED {
             true => 0,
             false => observations,
         };
@@ -296,18 +322,11 @@ impl Courses {
         }
     }
 
-    /// White noise is as likely beforehand as all shifts that fade together, as all scales that do, and as rounding of readings that
-    /// come in steps.
+    /// White noise is as likely beforehand as all shifts that fade together, as all scales that do, as rounding of readings that
+    /// come in steps, and as all that outputs have in common.
     fn log_prior(&self, at: usize) -> f64 {
-        let memory = self.all[at].0;
-        let kind = |memory: Memory| {
-            (
-                memory.fades(),
-                memory == Memory::Rounded,
-                memory.is_of_scale(),
-            )
-        };
-        let is_alike = |(other, _): &&(Memory, Arc<Correlation>)| kind(*other) == kind(memory);
+        let kind = self.all[at].0.kind();
+        let is_alike = |(other, _): &&(Memory, Arc<Correlation>)| other.kind() == kind;
         -libm::log(self.all.iter().filter(is_alike).count() as f64)
     }
 }
@@ -326,12 +345,22 @@ fn of_all(own: &DMatrix<f64>, responses: usize) -> DMatrix<f64> {
 impl Memory {
     /// Whether rows have in common what is near in time.
     pub fn fades(self) -> bool {
-        !matches!(self, Memory::White | Memory::Claimed | Memory::Rounded)
+        matches!(self.kind(), Kind::Wandering | Kind::OfScale)
     }
 
     /// Whether it is the scale that fades.
     pub fn is_of_scale(self) -> bool {
-        matches!(self, Memory::OfScale { .. })
+        self.kind() == Kind::OfScale
+    }
+
+    fn kind(self) -> Kind {
+        match self {
+            Memory::White | Memory::Claimed => Kind::White,
+            Memory::Fading { .. } | Memory::Flicker { .. } => Kind::Wandering,
+            Memory::OfScale { .. } => Kind::OfScale,
+            Memory::Rounded => Kind::Rounding,
+            Memory::InCommon { .. } => Kind::InCommon,
+        }
     }
 
     /// The part of the variance that is remembered.
@@ -340,14 +369,19 @@ impl Memory {
             Memory::White | Memory::Claimed | Memory::Rounded => 0.0,
             Memory::Fading { share, .. }
             | Memory::Flicker { share }
-            | Memory::OfScale { share, .. } => share,
+            | Memory::OfScale { share, .. }
+            | Memory::InCommon { share } => share,
         }
     }
 
     /// Correlation of two different rows.
     fn correlation(self, apart: f64, constants: &[f64]) -> f64 {
         match self {
-            Memory::White | Memory::Claimed | Memory::Rounded | Memory::OfScale { .. } => 0.0,
+            Memory::White
+            | Memory::Claimed
+            | Memory::Rounded
+            | Memory::OfScale { .. }
+            | Memory::InCommon { .. } => 0.0,
             Memory::Fading {
                 share,
                 time_constant,

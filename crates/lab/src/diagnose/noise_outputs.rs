@@ -1,11 +1,17 @@
-//! Whether errors of several outputs in the same row go together, as where one voltmeter reads them or one vibration shakes them. A
-//! diagnosis takes them as independent; where they are not, it has less to go by than it thinks.
+//! Whether errors of several outputs in the same row go together, as where one voltmeter reads them or one vibration shakes them.
+//!
+//! Where the residuals of the declared model show it, noise that the outputs have in common is a rival of every effect, as noise that
+//! wanders is: a share of the variance that is the same in each of them, but for its sign.
+
+use std::sync::Arc;
 
 use gumption_core::special::student_t_sf;
-use nalgebra::{DVector, DVectorView};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::design::Design;
+use super::evidence::Correlation;
 use super::fit::Fit;
+use super::noise_correlation::{Memory, SHARES};
 
 /// Two outputs whose residuals go together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,12 +26,63 @@ pub struct Together {
     pub p: f64,
 }
 
-/// Probability from which on it is told.
+/// Probability from which on it is told, and looked for.
 const TOLD: f64 = 0.01;
+
+/// The most observations of which matrices with what outputs have in common are compared. They fall apart into rows, so that their
+/// room alone is a bound: 400 blocks of three outputs take 12 MB for each.
+pub(super) const MOST_COMPARED: usize = 1200;
 
 /// The two outputs whose residuals, over the standard uncertainties of the observations, go together most, where they do beyond
 /// chance.
 pub(super) fn together(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<Together> {
+    pairs(design, fit, u)
+        .into_iter()
+        .min_by(|a, b| a.p.total_cmp(&b.p))
+}
+
+/// What outputs may have in common in each row, where their residuals go together beyond chance.
+pub(super) fn laws(
+    design: &Design<'_>,
+    fit: &Fit,
+    u: &DVector<f64>,
+) -> Vec<(Memory, Arc<Correlation>)> {
+    let (outputs, each) = (design.case.responses.len(), design.blocks.len());
+    if outputs * each > MOST_COMPARED {
+        return Vec::new();
+    }
+    let pairs = pairs(design, fit, u);
+    if pairs.is_empty() {
+        return Vec::new();
+    }
+    let signs = signs(pairs, outputs);
+    let law = |share: f64| {
+        let element = |a: usize, b: usize| match a == b {
+            true => 1.0,
+            false if a % each == b % each => share * signs[(a / each, b / each)],
+            false => 0.0,
+        };
+        let size = outputs * each;
+        let matrix = DMatrix::from_fn(size, size, element);
+        let memory = Memory::InCommon { share };
+        (memory, Arc::new(Correlation::new(matrix)))
+    };
+    SHARES.map(law).into()
+}
+
+/// Outputs of which a matrix of all observations says that they have errors in common.
+pub(super) fn in_common(correlation: &Correlation, outputs: usize) -> Vec<usize> {
+    let matrix = correlation.matrix();
+    let each = matrix.nrows() / outputs;
+    let meets =
+        |one: usize, other: usize| one != other && matrix[(one * each, other * each)] != 0.0;
+    (0..outputs)
+        .filter(|one| (0..outputs).any(|other| meets(*one, other)))
+        .collect()
+}
+
+/// All pairs of outputs whose residuals go together beyond chance.
+fn pairs(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Vec<Together> {
     let (outputs, each) = (design.case.responses.len(), design.blocks.len());
     let left = fit.residuals.component_div(u);
     let of = |output: usize| left.rows(output * each, each);
@@ -42,7 +99,24 @@ pub(super) fn together(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Opti
             p,
         })
     });
-    told.min_by(|a, b| a.p.total_cmp(&b.p))
+    told.collect()
+}
+
+/// Signs with which two outputs have an error in common, 0 where they have none: each output joins those with which it goes together
+/// most clearly, so that whatever is joined has one error in common.
+fn signs(mut pairs: Vec<Together>, outputs: usize) -> DMatrix<f64> {
+    pairs.sort_by(|a, b| a.p.total_cmp(&b.p));
+    let mut signs = DMatrix::identity(outputs, outputs);
+    for pair in pairs {
+        let [one, other] = pair.outputs;
+        if signs[(one, other)] != 0.0 {
+            continue;
+        }
+        let joined =
+            pair.correlation.signum() * signs.column(one) * signs.column(other).transpose();
+        signs += &joined + joined.transpose();
+    }
+    signs
 }
 
 /// Σ r_i s_i/√(Σ r_i² Σ s_i²) of residuals, whose means the model has taken.
@@ -64,5 +138,28 @@ mod tests {
         let across = DVector::from_vec(vec![2.0, 1.0, 1.0, -1.0]);
         assert_eq!(found(&across), Some(0.0));
         assert_eq!(found(&DVector::zeros(4)), None);
+    }
+
+    /// Two groups, and one output alone; the weakest pair says nothing that the stronger ones do not.
+    #[test]
+    fn outputs_that_go_together_have_one_error_in_common() {
+        let pair = |outputs, correlation: f64| Together {
+            outputs,
+            correlation,
+            p: 1e-3 * (1.0 - correlation.abs()),
+        };
+        let pairs = vec![
+            pair([0, 2], 0.5),
+            pair([2, 4], -0.9),
+            pair([0, 4], 0.3),
+            pair([1, 5], 0.8),
+        ];
+        let v = [
+            [1.0, 0.0, 1.0, 0.0, -1.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        ];
+        let alone = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0];
+        let of = |i: usize, j: usize| v[0][i] * v[0][j] + v[1][i] * v[1][j] + alone[i] * alone[j];
+        assert_eq!(signs(pairs, 6), DMatrix::from_fn(6, 6, of));
     }
 }

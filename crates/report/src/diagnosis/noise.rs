@@ -57,7 +57,7 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
     };
     text + &rounding(case, claimed, l)
         + &dof
-        + &memory(claimed, l)
+        + &memory(case, claimed, l)
         + &tails(claimed, l)
         + &uneven(claimed, l)
         + &together(case, claimed, l)
@@ -132,7 +132,7 @@ fn white(claimed: &Claimed, l: Language) -> &'static str {
 }
 
 /// How the errors of successive rows are correlated, where the recording shows it.
-fn memory(claimed: &Claimed, l: Language) -> String {
+fn memory(case: &Case, claimed: &Claimed, l: Language) -> String {
     let Some(correlated) = &claimed.correlated else {
         return String::new();
     };
@@ -169,6 +169,12 @@ fn memory(claimed: &Claimed, l: Language) -> String {
             time_constant: None,
             ..
         } => say!("; what grows is the scale, which wanders: it flickers (1/f)").in_language(l),
+        Memory::InCommon { share } => {
+            let outputs = correlated.outputs_in_common(case.responses.len());
+            let names = outputs.iter().map(|at| case.responses[*at].name.as_str());
+            let (share, names) = (part(share), names.collect::<Vec<_>>().join(", "));
+            say!("; errors of {names} in the same row go together: about {share} % of the variance is in common").in_language(l)
+        }
     }
 }
 

@@ -121,15 +121,16 @@ impl Covariance {
 pub(super) enum Factor {
     /// Of independent rows.
     Diagonal(DVector<f64>),
-    /// Of groups of successive rows that are independent of one another, such as the outputs of several
-    /// axes.
+    /// Of groups of rows that are independent of one another, such as all rows of one output, or one row of
+    /// all outputs.
     Groups(Vec<Group>),
 }
 
-/// The factor of successive rows.
+/// The factor of some rows.
 #[derive(Debug, Clone)]
 pub(super) struct Group {
-    start: usize,
+    /// Which, in ascending order.
+    rows: Vec<usize>,
     matrix: DMatrix<f64>,
 }
 
@@ -162,21 +163,18 @@ impl Factor {
 
     fn dense(matrix: &DMatrix<f64>) -> Result<Factor, Refusal> {
         is_positive(&matrix.diagonal())?;
-        let starts = groups(matrix);
-        if starts.len() == matrix.nrows() {
+        let groups = groups(matrix);
+        if groups.len() == matrix.nrows() {
             return Ok(Factor::Diagonal(matrix.diagonal().map(f64::sqrt)));
         }
-        let ends = starts.iter().skip(1).copied();
-        let ends = ends.chain(std::iter::once(matrix.nrows()));
-        let group = |(&start, end): (&usize, usize)| {
-            let size = end - start;
-            let own = matrix.view((start, start), (size, size)).into_owned();
+        let group = |rows: Vec<usize>| {
+            let own = DMatrix::from_fn(rows.len(), rows.len(), |i, j| matrix[(rows[i], rows[j])]);
             Some(Group {
-                start,
+                rows,
                 matrix: own.cholesky()?.unpack(),
             })
         };
-        let groups: Option<Vec<Group>> = starts.iter().zip(ends).map(group).collect();
+        let groups: Option<Vec<Group>> = groups.into_iter().map(group).collect();
         Ok(Factor::Groups(groups.ok_or(Refusal::NotPositive)?))
     }
 
@@ -188,13 +186,13 @@ impl Factor {
             }
             Factor::Groups(groups) => {
                 let group = |group: &Group| {
-                    let (start, size) = (group.start, group.matrix.nrows());
+                    let (rows, size) = (&group.rows, group.rows.len());
                     let of = |i: usize, j: usize| match i < j {
                         true => 0.0,
-                        false => group.matrix[(i, j)] * by(start + i, start + j),
+                        false => group.matrix[(i, j)] * by(rows[i], rows[j]),
                     };
                     Group {
-                        start,
+                        rows: rows.clone(),
                         matrix: DMatrix::from_fn(size, size, of),
                     }
                 };
@@ -213,7 +211,7 @@ impl Factor {
                     let size = group.matrix.nrows();
                     let identity = DMatrix::identity(size, size);
                     Some(Group {
-                        start: group.start,
+                        rows: group.rows.clone(),
                         matrix: group.matrix.solve_lower_triangular(&identity)?,
                     })
                 };
@@ -253,12 +251,27 @@ impl Factor {
             Factor::Groups(groups) => {
                 let mut out = DMatrix::zeros(columns.nrows(), columns.ncols());
                 for group in groups {
-                    let (start, size) = (group.start, group.matrix.nrows());
-                    let own = columns.rows(start, size);
-                    out.rows_mut(start, size)
-                        .gemm(1.0, &group.matrix, &own, 0.0);
+                    group.write(&mut out, columns);
                 }
                 out
+            }
+        }
+    }
+}
+
+impl Group {
+    /// Writes the factor times the rows of the group into those of `out`, where nothing but zeros are.
+    fn write(&self, out: &mut DMatrix<f64>, columns: &DMatrix<f64>) {
+        let (start, size) = (self.rows[0], self.rows.len());
+        let is_of_successive = self.rows[size - 1] - start + 1 == size;
+        if is_of_successive {
+            let own = columns.rows(start, size);
+            return (out.rows_mut(start, size)).gemm(1.0, &self.matrix, &own, 0.0);
+        }
+        for (mut out, column) in out.column_iter_mut().zip(columns.column_iter()) {
+            for (i, row) in self.rows.iter().enumerate() {
+                let each = self.rows[..=i].iter().enumerate();
+                out[*row] = each.map(|(j, at)| self.matrix[(i, j)] * column[*at]).sum();
             }
         }
     }
@@ -269,22 +282,30 @@ fn is_positive(variances: &DVector<f64>) -> Result<(), Refusal> {
     (variances.iter().position(wrong)).map_or(Ok(()), |row| Err(Refusal::Variance { row }))
 }
 
-/// First rows of the groups between which nothing is correlated.
-fn groups(matrix: &DMatrix<f64>) -> Vec<usize> {
-    // The last row that the rows so far are correlated with.
-    let mut reach = 0;
-    let mut starts = Vec::new();
-    for (index, column) in matrix.column_iter().enumerate() {
-        if index == 0 || index > reach {
-            starts.push(index);
+/// The groups of rows between which nothing is correlated, by their first rows.
+fn groups(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+    let mut is_taken = vec![false; matrix.nrows()];
+    let mut groups = Vec::new();
+    for first in 0..matrix.nrows() {
+        if is_taken[first] {
+            continue;
         }
-        let last = (0..column.len())
-            .rev()
-            .find(|row| column[*row] != 0.0)
-            .unwrap_or(index);
-        reach = reach.max(last);
+        is_taken[first] = true;
+        let mut group = vec![first];
+        let mut next = 0;
+        while let Some(row) = group.get(next).copied() {
+            for (other, is_taken) in is_taken.iter_mut().enumerate() {
+                if !*is_taken && matrix[(other, row)] != 0.0 {
+                    *is_taken = true;
+                    group.push(other);
+                }
+            }
+            next += 1;
+        }
+        group.sort_unstable();
+        groups.push(group);
     }
-    starts
+    groups
 }
 
 #[cfg(test)]
@@ -300,14 +321,21 @@ mod tests {
             [0.0, 0.0, -0.5, 1.0],
         ];
         let matrix = DMatrix::from_fn(4, 4, |i, j| rows[i][j]);
-        assert_eq!(groups(&matrix), [0, 2]);
+        assert_eq!(groups(&matrix), [[0, 1], [2, 3]]);
         let lower = Factor::of(&Covariance::Dense(matrix.clone())).unwrap();
         let whitener = lower.inverse().unwrap();
         // W Σ Wᵀ = I.
         let both = whitener.times(&whitener.times(&matrix).transpose());
         assert!((both - DMatrix::identity(4, 4)).norm() < 1e-12);
         let lower = lower.times(&DMatrix::identity(4, 4));
-        assert!((&lower * lower.transpose() - matrix).norm() < 1e-12);
+        assert!((&lower * lower.transpose() - &matrix).norm() < 1e-12);
+        // In another order the groups are no successive rows.
+        let order = [0, 2, 1, 3];
+        let matrix = DMatrix::from_fn(4, 4, |i, j| matrix[(order[i], order[j])]);
+        assert_eq!(groups(&matrix), [[0, 2], [1, 3]]);
+        let whitener = Factor::whitening(&Covariance::Dense(matrix.clone())).unwrap();
+        let both = whitener.times(&whitener.times(&matrix).transpose());
+        assert!((both - DMatrix::identity(4, 4)).norm() < 1e-12);
     }
 
     /// Scaled factors of the correlation are the factors of the matrix.

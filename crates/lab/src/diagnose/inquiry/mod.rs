@@ -23,6 +23,7 @@ use super::fit::Fit;
 use super::further;
 use super::noise::Claimed;
 use super::noise_correlation::Courses;
+use super::noise_outputs;
 use super::noise_scale::Scales;
 use super::possible;
 use super::regions;
@@ -109,8 +110,10 @@ impl<'i> Inquiry<'i> {
         // What the model leaves out may look like noise that grows.
         let plain = settled::plain(design, fit, &claimed);
         let fitted = &candidates.fitted;
+        let in_common = noise_outputs::laws(design, fit, &claimed.u);
+        let is_open = claimed.is_estimated() || !in_common.is_empty();
         let courses = Courses::of(fitted)
-            .or_else(|| (claimed.is_estimated()).then(|| Courses::white(design.observations())))
+            .or_else(|| is_open.then(|| Courses::white(design.observations())))
             .filter(|_| claimed.correlated.is_none());
         let scales = Scales::of(fitted).zip(courses.as_ref());
         let of_scale = match scales.filter(|_| claimed.is_estimated() && claimed.rounding.is_none())
@@ -124,7 +127,8 @@ impl<'i> Inquiry<'i> {
         };
         let of_scale = of_scale.filter(|(p, _)| *p <= OF_NOISE * settings.alpha);
         let (scale_by_chance, scales) = of_scale.unzip();
-        let courses = courses.map(|courses| courses.or(scales.unwrap_or_default()));
+        let others = scales.unwrap_or_default().into_iter().chain(in_common);
+        let courses = courses.map(|courses| courses.or(others.collect()));
         let mut inquiry = Inquiry {
             candidates,
             answer,

@@ -53,19 +53,20 @@ fn triad_shaken(seed: u64, warmth: f64) -> (String, &'static str) {
     (rows, case)
 }
 
-/// With errors that count as independent, 16 of these 24 recordings of nothing but noise would be explained by something.
+/// With errors that count as independent, half of such recordings of nothing but noise would be explained by something. At 1 % three
+/// alarms and more come in 0.2 % of such tests.
 #[test]
 fn noise_that_outputs_have_in_common_is_no_effect() {
+    let mut alarms = 0;
     for seed in 0..24 {
         let (rows, case) = triad_shaken(100 + seed, 0.0);
         let found = diagnosed(&format!("shaken-{seed}"), &rows, case);
-        assert_eq!(found["verdict"], "none", "{found}");
+        alarms += usize::from(found["verdict"] != "none");
         let noise = found["noise"]["origin"].as_str().unwrap_or_default();
-        assert!(
-            noise.contains("ux, uy, uz in the same row go together"),
-            "{noise}"
-        );
+        let said = "ux, uy, uz in the same row go together";
+        assert!(noise.contains(said), "{noise}");
     }
+    assert!(alarms <= 2, "{alarms} of 24");
 }
 
 /// What acts on one output alone is seen beside what all have in common, and is known the better for it: of its own noise the output
@@ -74,7 +75,7 @@ fn noise_that_outputs_have_in_common_is_no_effect() {
 fn an_effect_is_seen_beside_noise_in_common() {
     let (rows, case) = triad_shaken(7, 4e-4);
     let found = diagnosed("shaken-warm", &rows, case);
-    assert_eq!(first_names(&found), ["temperature-offset"], "{found}");
+    assert_eq!(first_names(&found), ["tempco-bias"], "{found}");
     let (estimate, u) = size(&found);
     assert!(
         (estimate - 4e-4).abs() < 4.0 * u && u < 6e-5,

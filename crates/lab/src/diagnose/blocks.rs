@@ -10,6 +10,10 @@ const MOST_BLOCKS: usize = 400;
 /// The most observations of which matrices for laws of the noise are compared: larger ones take too long.
 pub(super) const MOST_COMPARED: usize = 600;
 
+/// The most observations of which matrices with what outputs have in common are compared. They fall apart into rows, so that their
+/// room alone is a bound: 400 blocks of three outputs take 12 MB for each.
+pub(super) const MOST_IN_COMMON: usize = 1200;
+
 /// So are recordings without a time that have more rows: work and memory grow with their square.
 const MOST_ROWS: usize = 1000;
 

@@ -401,5 +401,5 @@ fn refit(
 ) -> Result<Fit, NoFit> {
     let design = Design::new(&extended.case);
     let start = adopt::start(fitted, &design, &extended.effects);
-    fit::near(&design, &claimed.u, start)
+    fit::near(&design, claimed.weights(), start)
 }

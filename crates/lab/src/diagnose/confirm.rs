@@ -113,8 +113,7 @@ pub(super) fn estimates(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Ve
 /// How well the unknowns are known with each law of the noise that the recording allows, as likely as they occur. Where the
 /// size of the noise is estimated, it is the one with which the law gives the χ² of the fit, and known as well as this is.
 fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
-    let found = chi_squared(fit, claimed);
-    let sized = |mut spread: Spread| {
+    let sized = |mut spread: Spread, found: f64| {
         if claimed.is_estimated() {
             spread.variances *= found / spread.expected.max(1.0);
         } else {
@@ -122,19 +121,24 @@ fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
         }
         spread
     };
-    match baseline(design, fit, &claimed.uncorrelated()) {
+    match baseline(design, fit, &claimed.of_fit()) {
         Ok(baseline) => {
-            let spread = |law: &Covariance| sized(baseline.spread(law));
+            let found = match claimed.in_common() {
+                Some(_) => baseline.chi_squared(),
+                None => chi_squared(fit, claimed),
+            };
+            let spread = |law: &Covariance| sized(baseline.spread(law), found);
             let noise = claimed.noise(design, fit);
             noise.laws().iter().map(spread).collect()
         }
         Err(_) => {
             let degrees = degrees(design);
-            vec![sized(Spread {
+            let spread = Spread {
                 variances: covariance(design, fit, claimed).diagonal(),
                 expected: degrees,
                 dof: degrees,
-            })]
+            };
+            vec![sized(spread, chi_squared(fit, claimed))]
         }
     }
 }
@@ -169,7 +173,7 @@ pub(super) fn degrees(design: &Design<'_>) -> f64 {
 /// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short
 /// stretches that are spread over it.
 fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
-    let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) else {
+    let Ok(baseline) = baseline(design, fit, &claimed.of_fit()) else {
         return fit.residuals.clone();
     };
     let blocks = design.blocks.len();
@@ -181,10 +185,15 @@ fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
         let rows = (0..design.observations()).filter(|row| fold(*row) == held);
         let rows: Vec<usize> = rows.collect();
         for (row, error) in rows.iter().zip(&baseline.left_out(&rows)) {
-            errors[*row] = error * claimed.u[*row];
+            errors[*row] = *error;
         }
     }
-    errors
+    // All outputs of a block are held out together.
+    let coloured = claimed
+        .in_common()
+        .map(|one| one.correlation.coloured(&errors));
+    let errors = coloured.and_then(Result::ok).unwrap_or(errors);
+    errors.component_mul(&claimed.u)
 }
 
 /// What of the observations lies along finite columns, by least squares in units of their noise.
@@ -198,10 +207,12 @@ pub(super) fn along(
 
 /// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.
 pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
-    if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
+    if let Ok(baseline) = baseline(design, fit, &claimed.of_fit()) {
         return match &claimed.correlated {
-            Some(correlated) => baseline.covariance_with(&correlated.expected()),
-            None => baseline.covariance(),
+            Some(correlated) if claimed.in_common().is_none() => {
+                baseline.covariance_with(&correlated.expected())
+            }
+            _ => baseline.covariance(),
         };
     }
     let mut rows = evidence::over_noise(&fit.jacobian, &claimed.u);

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::catalogue::modifiers::largest;
 use super::design::{Design, Linear};
+use super::evidence::Correlation;
 use gumption_core::least_squares::{self, Minimum, Residuals, Stuck, glance, minimise};
 
 /// The model at its best.
@@ -62,6 +63,34 @@ impl Fit {
     }
 }
 
+/// How well observations are known.
+#[derive(Debug, Clone, Copy)]
+pub struct Weights<'w> {
+    /// Standard uncertainty of each.
+    pub u: &'w DVector<f64>,
+    /// How they are correlated, where they are.
+    pub correlation: Option<&'w Correlation>,
+}
+
+impl<'w> Weights<'w> {
+    /// Of independent observations.
+    pub fn of(u: &'w DVector<f64>) -> Weights<'w> {
+        Weights {
+            u,
+            correlation: None,
+        }
+    }
+
+    /// A column in units of the noise.
+    fn weighted(&self, column: &DVector<f64>) -> DVector<f64> {
+        let own = column.component_div(self.u);
+        let whitened = self
+            .correlation
+            .map(|correlation| correlation.whitened(&own));
+        whitened.and_then(Result::ok).unwrap_or(own)
+    }
+}
+
 /// Why there is no fit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoFit {
@@ -110,7 +139,7 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             unknowns: count,
         });
     }
-    let problem = Problem::new(design, u);
+    let problem = Problem::new(design, Weights::of(u));
     let parameters: Vec<usize> = (0..design.case.parameters.len()).collect();
     let is_linear = design.case.equations.are_affine_in(&parameters);
     let mut best: Option<(f64, Fit)> = None;
@@ -177,7 +206,7 @@ fn same_values(one: &Fit, other: &Fit) -> bool {
 /// # Errors
 /// As [`fit`].
 pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    let found = Problem::new(design, u).search(start);
+    let found = Problem::new(design, Weights::of(u)).search(start);
     found.map(|(_, fit)| fit)
 }
 
@@ -185,8 +214,8 @@ pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Resul
 ///
 /// # Errors
 /// As [`fit`].
-pub fn near(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    let problem = Problem::new(design, u);
+pub fn near(design: &Design<'_>, weights: Weights<'_>, start: DVector<f64>) -> Result<Fit, NoFit> {
+    let problem = Problem::new(design, weights);
     match problem.search(start) {
         Ok((_, found)) if found.lost.is_none() => Ok(found),
         first => {
@@ -232,13 +261,13 @@ fn starts(design: &Design<'_>) -> Vec<DVector<f64>> {
 struct Problem<'f, 'c> {
     design: &'f Design<'c>,
     observed: DVector<f64>,
-    u: &'f DVector<f64>,
+    weights: Weights<'f>,
     /// Unknowns of which something is known beforehand: place, value and standard uncertainty.
     priors: Vec<(usize, f64, f64)>,
 }
 
 impl<'f, 'c> Problem<'f, 'c> {
-    fn new(design: &'f Design<'c>, u: &'f DVector<f64>) -> Problem<'f, 'c> {
+    fn new(design: &'f Design<'c>, weights: Weights<'f>) -> Problem<'f, 'c> {
         let known = design.unknowns.iter().enumerate();
         let known = known.filter_map(|(place, unknown)| {
             let (value, u) = unknown.prior?;
@@ -247,7 +276,7 @@ impl<'f, 'c> Problem<'f, 'c> {
         Problem {
             design,
             observed: design.observed_column(|response| design.observed(response)),
-            u,
+            weights,
             priors: known.collect(),
         }
     }
@@ -321,7 +350,7 @@ impl Residuals for Problem<'_, '_> {
     ) -> Option<least_squares::Linear> {
         let fit = at(self.design, DVector::from_column_slice(unknowns));
         let rows = |column: &DVector<f64>, known: &dyn Fn(&(usize, f64, f64)) -> f64| {
-            let own = column.component_div(self.u);
+            let own = self.weights.weighted(column);
             let own = own.iter().copied();
             own.chain(self.priors.iter().map(known))
                 .collect::<Vec<f64>>()

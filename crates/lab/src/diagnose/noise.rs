@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::case::{Case, Origin};
 use super::design::Design;
 use super::evidence::{Correlation, Covariance, Noise, Tails};
-use super::fit::Fit;
+use super::fit::{Fit, Weights};
 use super::noise_correlation::{Correlated, Memory};
 use super::noise_growth::Growth;
 use super::noise_labels::ByLabel;
@@ -158,6 +158,26 @@ impl Claimed {
         }
     }
 
+    /// What weights a fit: each observation by itself, and what outputs have in common, beside which an effect in one of them is known
+    /// much better. Noise that wanders takes hardly anything from a fit without it.
+    pub(super) fn of_fit(&self) -> Claimed {
+        match self.in_common() {
+            None => self.uncorrelated(),
+            Some(correlated) => self.with(Some(Correlated {
+                draws: Vec::new(),
+                ..correlated.clone()
+            })),
+        }
+    }
+
+    /// The same as weights.
+    pub(super) fn weights(&self) -> Weights<'_> {
+        Weights {
+            u: &self.u,
+            correlation: self.in_common().map(|one| one.correlation.as_ref()),
+        }
+    }
+
     /// Whether a recording seen with either says the same: where the size of the noise is not claimed, only the ratios of
     /// its standard uncertainties matter.
     pub fn weighs_alike(&self, other: &Claimed) -> bool {
@@ -188,10 +208,10 @@ impl Claimed {
         correlated.is_some_and(|one| one.memory.is_of_scale())
     }
 
-    /// Whether the recording shows that outputs have errors in common.
-    pub(super) fn is_in_common(&self) -> bool {
+    /// What outputs have in common in each row, where the recording shows it.
+    pub(super) fn in_common(&self) -> Option<&Correlated> {
         let correlated = self.correlated.as_ref();
-        correlated.is_some_and(|one| matches!(one.memory, Memory::InCommon { .. }))
+        correlated.filter(|one| matches!(one.memory, Memory::InCommon { .. }))
     }
 
     /// Whether it is left open that successive rows are correlated, though the recording does not show it.

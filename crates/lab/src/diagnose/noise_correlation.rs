@@ -10,14 +10,13 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
-use super::blocks::MOST_COMPARED;
+use super::blocks::{MOST_COMPARED, MOST_IN_COMMON};
 use super::catalogue::FittedModel;
 use super::catalogue::norm::Norm;
 use super::chance::in_proportion;
 use super::design::Design;
 use super::evidence::{self, Correlation, Noise, Refusal};
 use super::fit::Fit;
-use super::noise_outputs;
 use super::reduced::reduced;
 
 /// Fewer degrees of freedom cannot tell white from correlated noise.
@@ -53,7 +52,12 @@ pub struct Correlated {
 impl Correlated {
     /// Which of so many outputs have errors in the same row in common.
     pub fn outputs_in_common(&self, outputs: usize) -> Vec<usize> {
-        noise_outputs::in_common(&self.correlation, outputs)
+        let matrix = self.correlation.matrix();
+        let each = matrix.nrows() / outputs;
+        let meets =
+            |one: usize, other: usize| one != other && matrix[(one * each, other * each)] != 0.0;
+        let meets_any = |one: &usize| (0..outputs).any(|other| meets(*one, other));
+        (0..outputs).filter(meets_any).collect()
     }
 
     /// The mean of the matrices that the recording allows. Variances of estimates are linear in the matrix, so that theirs
@@ -127,7 +131,7 @@ pub(super) struct Courses {
 
 /// Matrices that so many observations have at most: one for each law, and one where there are too many for laws.
 pub(super) fn laws(observations: usize) -> usize {
-    let in_common = match observations > noise_outputs::MOST_COMPARED {
+    let in_common = match observations > MOST_IN_COMMON {
         true => 0,
         false => SHARES.len(),
     };
@@ -221,7 +225,7 @@ impl Courses {
     /// Where no other is asked for.
     pub(super) fn white(observations: usize) -> Courses {
         // Beyond these no other is compared with it.
-        let size = match observations > noise_outputs::MOST_COMPARED {
+        let size = match observations > MOST_IN_COMMON {
             true => 0,
             false => observations,
         };
@@ -237,6 +241,12 @@ impl Courses {
     /// Whether rows may remember others.
     pub(super) fn remember(&self) -> bool {
         self.all.iter().any(|(memory, _)| memory.fades())
+    }
+
+    /// Whether outputs may have errors in common.
+    pub(super) fn are_of_outputs(&self) -> bool {
+        let mut all = self.all.iter();
+        all.any(|(memory, _)| memory.kind() == Kind::InCommon)
     }
 
     /// These, and what readings have in common by their rounding.

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use gumption_core::special::student_t_sf;
 use nalgebra::{DMatrix, DVector, DVectorView};
 
+use super::blocks::MOST_IN_COMMON;
 use super::design::Design;
 use super::evidence::Correlation;
 use super::fit::Fit;
@@ -29,10 +30,6 @@ pub struct Together {
 /// Probability from which on it is told, and looked for.
 const TOLD: f64 = 0.01;
 
-/// The most observations of which matrices with what outputs have in common are compared. They fall apart into rows, so that their
-/// room alone is a bound: 400 blocks of three outputs take 12 MB for each.
-pub(super) const MOST_COMPARED: usize = 1200;
-
 /// The two outputs whose residuals, over the standard uncertainties of the observations, go together most, where they do beyond
 /// chance.
 pub(super) fn together(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<Together> {
@@ -48,7 +45,7 @@ pub(super) fn laws(
     u: &DVector<f64>,
 ) -> Vec<(Memory, Arc<Correlation>)> {
     let (outputs, each) = (design.case.responses.len(), design.blocks.len());
-    if outputs * each > MOST_COMPARED {
+    if outputs * each > MOST_IN_COMMON {
         return Vec::new();
     }
     let pairs = pairs(design, fit, u);
@@ -68,17 +65,6 @@ pub(super) fn laws(
         (memory, Arc::new(Correlation::new(matrix)))
     };
     SHARES.map(law).into()
-}
-
-/// Outputs of which a matrix of all observations says that they have errors in common.
-pub(super) fn in_common(correlation: &Correlation, outputs: usize) -> Vec<usize> {
-    let matrix = correlation.matrix();
-    let each = matrix.nrows() / outputs;
-    let meets =
-        |one: usize, other: usize| one != other && matrix[(one * each, other * each)] != 0.0;
-    (0..outputs)
-        .filter(|one| (0..outputs).any(|other| meets(*one, other)))
-        .collect()
 }
 
 /// All pairs of outputs whose residuals go together beyond chance.

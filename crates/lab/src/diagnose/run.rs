@@ -162,7 +162,7 @@ pub fn diagnose(
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     let last = adopted.as_ref().map_or(&fit, |adopted| &adopted.fit);
     let together = noise_outputs::together(&design, last, &claimed.u);
-    let together = together.filter(|_| !claimed.is_in_common());
+    let together = together.filter(|_| claimed.in_common().is_none());
     let claimed = Claimed {
         together,
         ..claimed

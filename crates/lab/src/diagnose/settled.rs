@@ -6,7 +6,7 @@ use super::case::{Case, Origin, Role};
 use super::catalogue::signal;
 use super::design::Design;
 use super::evidence;
-use super::fit::{self, Fit, NoFit};
+use super::fit::{self, Fit, NoFit, Weights};
 use super::noise::Claimed;
 use super::noise_claims::{claimed, counts};
 use super::noise_correlation::Courses;
@@ -28,7 +28,7 @@ pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
         Some(first) if case.columns.iter().all(|column| column.u.is_none()) => first,
         _ => claimed(design, Some(&rough)).unwrap_or_else(|| estimated(design, &rough)),
     };
-    let fit = fit::near(design, &claimed.u, rough.unknowns.clone())?;
+    let fit = fit::near(design, Weights::of(&claimed.u), rough.unknowns.clone())?;
     let claimed = match claimed.is_estimated() {
         true => estimated(design, &fit),
         false => {

@@ -44,6 +44,22 @@ impl Correlation {
         &self.matrix
     }
 
+    /// What is left of a column of rows without their correlation, L⁻¹x.
+    ///
+    /// # Errors
+    /// It is no correlation matrix.
+    pub fn whitened(&self, column: &DVector<f64>) -> Result<DVector<f64>, Refusal> {
+        Ok(self.factors()?[1].of_column(column))
+    }
+
+    /// A column with this correlation in place of none, Lx.
+    ///
+    /// # Errors
+    /// It is no correlation matrix.
+    pub fn coloured(&self, column: &DVector<f64>) -> Result<DVector<f64>, Refusal> {
+        Ok(self.factors()?[0].of_column(column))
+    }
+
     fn factors(&self) -> Result<&[Factor; 2], Refusal> {
         let factored = || {
             let lower = Factor::dense(&self.matrix).ok()?;
@@ -236,6 +252,11 @@ impl Factor {
                 })
                 .sum(),
         }
+    }
+
+    fn of_column(&self, column: &DVector<f64>) -> DVector<f64> {
+        let columns = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
+        self.times(&columns).column(0).into_owned()
     }
 
     /// The factor times the columns.

@@ -167,7 +167,8 @@ impl<'i> Inquiry<'i> {
             self.answer = self.asked(plain.clone(), 0.4, 0.4)?;
         }
         match &self.courses {
-            Some(courses) if self.found_nothing() => {
+            // Beside what outputs have in common, what one of them shows alone stands out.
+            Some(courses) if self.found_nothing() && !courses.are_of_outputs() => {
                 let Declared { design, fit, .. } = self.declared;
                 let answer = &mut self.answer;
                 answer.claimed = settled::refined(design, fit, &starts[0], Some(courses));

@@ -109,6 +109,8 @@ pub struct Row {
     pub is_absent: bool,
     /// What the laboratory's own column calls the distribution.
     pub distribution: String,
+    /// What its own column calls the type of evaluation.
+    pub evaluation: String,
     /// The share in the variance that the sheet prints.
     pub share: Option<Printed>,
     /// Whether the row is hidden in its workbook.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::calculate::{Case, Factor, Freedom, t};
 use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
 use crate::printed::Printed;
+use crate::read::is_of_type;
 use crate::units;
 use gumption_core::model::is_reserved;
 use gumption_fault::language::Language;
@@ -353,7 +354,10 @@ impl Input<'_> {
                 format!("{}{}type = \"A\"\n", self.remark(of), standard())
             }
             Stated::Standard { .. } | Stated::Nothing => {
-                self.remark(say!("The sheet states no more than this figure.")) + &standard()
+                let remark = self.remark(say!("The sheet states no more than this figure."));
+                let is_of_type_a = is_of_type(&self.row.evaluation.to_lowercase(), "a");
+                let of_type = if is_of_type_a { "type = \"A\"\n" } else { "" };
+                format!("{remark}{}{of_type}", standard())
             }
         };
         text

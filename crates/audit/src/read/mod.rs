@@ -67,6 +67,7 @@ pub(crate) use counts::count_before;
 pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use factor::FIXED;
 pub(crate) use footer::Whole;
+pub(crate) use kind::is_of_type;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};

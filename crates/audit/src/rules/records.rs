@@ -73,7 +73,7 @@ pub(super) fn second_order(seen: &Seen<'_>) -> Vec<Hit> {
     /// A twentieth of u_c² is a fortieth of u_c, half a unit in the second of its digits where that is 20.
     const SHARE: f64 = 0.05;
     let share = seen.case.second_order.filter(|share| *share > SHARE);
-    let hit = share.map(|share| Hit::of(None, format!("{:.0} % of u_c²", 100.0 * share)));
+    let hit = share.map(|share| Hit::of(None, format!("{:.0} % u_c²", 100.0 * share)));
     hit.into_iter().collect()
 }
 
@@ -94,7 +94,10 @@ pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
         y.value - expanded.value * to_y,
         y.value + expanded.value * to_y,
     ];
-    let lines = texts(seen).filter(|(_, text)| has(text, &MONTE_CARLO));
+    // A row has what other tables say of it, too: only the sentence that names the method tells its interval.
+    let sentences =
+        texts(seen).flat_map(|(row, text)| sentences(text).into_iter().map(move |one| (row, one)));
+    let lines = sentences.filter(|(_, text)| has(text, &MONTE_CARLO));
     let hit = |(row, text): (Option<usize>, &str)| {
         let (low, high) = interval(text)?;
         let apart = (low.value - ends[0])
@@ -109,6 +112,23 @@ pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
         (apart > open).then(|| Hit::of(row, numbers()))
     };
     lines.filter_map(hit).take(1).collect()
+}
+
+/// The parts of a text between its full stops; the point of a number is none.
+fn sentences(text: &str) -> Vec<&str> {
+    let is_stop = |(at, c): &(usize, char)| {
+        let next = text[at + c.len_utf8()..].chars().next();
+        *c == '。' || *c == '.' && !next.is_some_and(|next| next.is_ascii_digit())
+    };
+    let stops = text.char_indices().filter(is_stop);
+    let ends = stops.map(|(at, c)| at + c.len_utf8());
+    let mut from = 0;
+    let cut = ends.chain([text.len()]).map(|end| {
+        let part = &text[from..end];
+        from = end;
+        part
+    });
+    cut.collect()
 }
 
 /// `[9.98, 10.02]`, `9.98 to 10.02 V`, `(0~100) °C`, `200 g to 5 kg`: two figures with a mark or a word for a range between

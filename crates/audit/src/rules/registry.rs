@@ -55,7 +55,7 @@ pub const RULES: &[Rule] = &[
     rule(10, Error, "k-twice", t("a coverage factor was applied twice, or never removed", "包含因子乘了两次，或从未除去", "JCGM 100, 4.3.3", "the figure was a standard uncertainty after all", "该数值本来就是标准不确定度"), Slip),
     rule(11, Error, "certificate-as-limit", t("U of a certificate whose k is stated was divided by √3", "已知 k 的证书不确定度却除以 √3", "JCGM 100, 4.3.3", "the figure is a limit of error after all", "该数值实为误差限"), Slip),
     rule(12, Error, "limit-by-2", t("limits without a level of confidence were divided by 2", "未给置信水平的极限除以 2", "JCGM 100, 4.3.7", "the maker states them at 95 %", "厂家声明为 95 % 水平"), Slip),
-    rule(13, Error, "divisor", t("the divisor is not that of the distribution which is named", "除数与所写分布不符", "JCGM 100, 4.3.4 to 4.3.9", "a trapezoid or another probability is meant", "实指梯形分布或其他包含概率"), Look(rows::distribution)),
+    rule(13, Error, "divisor", t("the divisor is not that of the distribution which is named", "除数与所写分布不符", "JCGM 100, 4.3.4–4.3.9", "a trapezoid or another probability is meant", "实指梯形分布或其他包含概率"), Look(rows::distribution)),
     rule(14, Error, "full-width", t("a full width was used as half-width, or a half-width halved again", "全宽当作半宽，或半宽又减半", "JCGM 100, F.2.2.1", "2^-N of full scale is the half-width of a bipolar converter", "满量程的 2^-N 正是双极性转换器的半宽"), Slip),
     rule(15, Warning, "k-not-2", t("a certificate states another k than 2, and was divided by 2", "证书的 k 不是 2，却除以 2", "JCGM 100, 4.3.3", "none if k is stated", "证书已给出 k 时不成立"), Slip),
     rule(16, Warning, "certificate-without-k", t("U of a certificate is quoted without its k", "引用证书的 U 而未注明 k", "JCGM 100, 7.2.3; ILAC-P14, 5.4", "the certificate says k = 2 for all of its figures", "证书对全部数值统一注明 k = 2"), Look(rows::certificate_without_k)),

@@ -275,7 +275,7 @@ pub(super) fn dominant(seen: &Seen<'_>) -> Vec<Hit> {
     }
     each(seen, |_, line| {
         let share = share(line);
-        (share > 0.8 && u_c > 0.0).then(|| format!("{:.0} % of u_c²", 100.0 * share))
+        (share > 0.8 && u_c > 0.0).then(|| format!("{:.0} % u_c²", 100.0 * share))
     })
 }
 

@@ -159,7 +159,7 @@ pub(super) fn rectangle(seen: &Seen<'_>) -> Vec<Hit> {
         let part = line.contribution() / u_c;
         Hit {
             row: Some(i),
-            numbers: format!("{:.0} % of u_c²", 100.0 * part * part),
+            numbers: format!("{:.0} % u_c²", 100.0 * part * part),
             corrected: Some(1.65 * u_c),
         }
     });

@@ -58,7 +58,7 @@ pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
 }
 
 /// Whether the laboratory's columns call the evaluation one of type A or B: `A`, `B 类`.
-pub(super) fn is_of_type(columns: &str, letter: &str) -> bool {
+pub(crate) fn is_of_type(columns: &str, letter: &str) -> bool {
     let mut words = columns.split(|c: char| !c.is_alphanumeric());
     words.any(|word| word.strip_suffix('类').unwrap_or(word) == letter)
 }

@@ -62,6 +62,7 @@ impl<'a> Line<'a> {
                 unit: alone(self.unit_beside(0)).to_string(),
                 is_hidden: self.grid.hidden_rows.contains(&self.row),
                 distribution: self.text(Role::Distribution),
+                evaluation: self.text(Role::Type),
                 share: self.derived(is_share),
                 formulas: formulas.into_iter().filter_map(formula).collect(),
                 words: self.words(&symbol, &name, remark),

@@ -14,7 +14,7 @@ use crate::experiment::components::lower_factor;
 use crate::experiment::written::{own_units, unit_line};
 use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Decimal, Rounding, Unit};
 use gumption_fault::language::Language;
 use gumption_format::toml::writing::{key, quoted};
 use gumption_gum::budget::{Certificate, Evaluation};
@@ -295,8 +295,16 @@ fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
         Some(half) if *shape == Uniform::KIND => format!("half_width = {half:?}\n"),
         Some(half) => format!("half_width = {half:?}\ndistribution = \"{}\"\n", shape.key),
         _ if dof.is_infinite() => format!("u = {u:?}\n"),
-        _ => format!("u = {u:?}\ndof = {dof:?}\n"),
+        _ => format!("u = {u:?}\ndof = {:?}\n", counted(dof)),
     }
+}
+
+/// Degrees of freedom without what sums of doubles add: 31 in place of 30.999999999999996.
+fn counted(dof: f64) -> f64 {
+    const DIGITS: u8 = 12;
+    Decimal::from_f64(dof)
+        .round_to_significant(DIGITS, Rounding::HalfEven)
+        .to_f64()
 }
 
 fn quotient(unit: &Unit, by: &Unit) -> Unit {

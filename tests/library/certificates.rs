@@ -241,6 +241,164 @@ fn the_next_calibration_is_written_and_read() {
     assert!(used("2027-01-16").contains("was due on 2027-01-15"));
 }
 
+/// A text as a budget, and what its digital certificate says.
+fn digital(folder: &Path, name: &str, text: &str) -> String {
+    let data = folder.join("laboratory.toml");
+    if !data.exists() {
+        run(&["new", "--certificate"], &[&data]);
+    }
+    let [budget, file] = ["toml", "xml"].map(|ending| folder.join(format!("{name}.{ending}")));
+    std::fs::write(&budget, text).expect("a budget");
+    let [data, made] = [&data, &file].map(|path| path.to_str().expect("a path"));
+    let all = [
+        "eval",
+        "--no-mc",
+        "--force",
+        "--certificate",
+        data,
+        "-o",
+        made,
+    ];
+    run(&all, &[&budget]);
+    std::fs::read_to_string(file).expect("a certificate")
+}
+
+fn all_between<'t>(text: &'t str, element: &str) -> Vec<&'t str> {
+    let [start, end] = ["<", "</"].map(|mark| format!("{mark}{element}>"));
+    let parts = text.split(start.as_str()).skip(1);
+    let contents = parts.filter_map(|part| Some(part.split_once(end.as_str())?.0));
+    contents.collect()
+}
+
+/// A list of verdicts is one for each point; where one is withheld, or tolerances differ, each point has its own.
+#[test]
+fn each_point_has_its_verdict_and_its_tolerance() {
+    let folder = folder("verdicts");
+    let series = |conformity: &str, columns: &str, rows: &str| {
+        format!(
+            "[measurand.y]\nmodel = \"a^2\"\nunit = \"mV^2\"\n[input.a]\nvalue = 1\nunit = \"mV\"\nu = 0.01\n[conformity]\n{conformity}\nrule = \"simple\"\n[series]\ncolumns = [\"label\", \"a\", \"a.u\"{columns}]\nrows = [{rows}]\n"
+        )
+    };
+    // In the first row the first order does not see u.
+    let upper = "upper = \"0.005 mV^2\"";
+    let rows = "[\"p1\", 0, 0.1], [\"p2\", 0.02, 0.001], [\"p3\", 2, 0.01]";
+    let text = digital(&folder, "withheld", &series(upper, "", rows));
+    assert!(!text.contains("conformityXMLList"), "{text}");
+    // In one language the data of the laboratory are told in it alone.
+    assert!(!text.contains("lang=\"zh\""), "{text}");
+    assert_eq!(all_between(&text, "dcc:conformity"), ["pass", "fail"]);
+    let of = |point: &str, said: &str| {
+        let mut each = text.split("<dcc:metaData");
+        let own = each.find(|one| one.contains(point)).expect(point);
+        assert!(own.contains(said), "{own}");
+    };
+    of("Conformity of y, p1", "No verdict.");
+    of("Conformity of y, p2", "<dcc:conformity>pass");
+    of("Conformity of y, p3", "<dcc:conformity>fail");
+
+    let rows = "[\"p1\", 1, 0.01, 1.1], [\"p2\", 2, 0.01, 3.9]";
+    let text = digital(
+        &folder,
+        "tolerances",
+        &series("upper = 5", ", \"conformity.upper\"", rows),
+    );
+    assert_eq!(all_between(&text, "dcc:conformity"), ["pass", "fail"]);
+    assert!(text.contains("1.1 mV") && text.contains("3.9 mV"), "{text}");
+}
+
+/// ν of one point is read where that of another is infinite, and k of each with its probability leads back to u.
+#[test]
+fn degrees_of_freedom_stay_with_their_points() {
+    let folder = folder("freedom");
+    let budget = "[measurand.y]\nmodel = \"a\"\nunit = \"mV\"\n[input.a]\nvalue = 1\nunit = \"mV\"\nu = 0.1\n[series]\ncolumns = [\"label\", \"a\", \"a.dof\"]\nrows = [[\"p1\", 1, 9], [\"p2\", 2, 3], [\"p3\", 3, \"\"]]\n";
+    let text = digital(&folder, "points", budget);
+    let lists = all_between(&text, "si:valueXMLList");
+    assert!(lists.contains(&"9 3 NaN"), "{lists:?}");
+    let found = evaluated(
+        &folder,
+        "[measurand.y]\nmodel = \"x\"\nunit = \"mV\"\n[input.x]\ncertificate = { dcc = \"points.xml\", point = \"p2\" }\n",
+    );
+    let freedom = &found["measurands"][0]["gum"]["effective_degrees_of_freedom"];
+    assert_eq!(freedom.as_f64(), Some(3.0), "{found}");
+}
+
+/// Units without a name in the D-SI are what they are defined by, and U keeps two digits: 760.12 mmHg are 101341.0 Pa, and
+/// 0.098 mmHg 13.07 Pa.
+#[test]
+fn other_units_are_converted_to_two_digits_of_uncertainty() {
+    let folder = folder("units");
+    let input = |name: &str, value: f64, unit: &str, u: f64| {
+        format!(
+            "[measurand.{name}]\nmodel = \"{name}_\"\nunit = \"{unit}\"\n[input.{name}_]\nvalue = {value}\nunit = \"{unit}\"\nu = {u}\n"
+        )
+    };
+    let budget = [
+        input("P", 760.12, "mmHg", 0.05),
+        input("f", 3000.2, "r/min", 0.2),
+        input("T", 77.36, "°F", 0.11),
+    ];
+    let text = digital(&folder, "units", &budget.concat());
+    let values = all_between(&text, "si:value");
+    let units = all_between(&text, "si:unit");
+    let uncertainties = all_between(&text, "si:valueExpandedMU");
+    let has = |value: &str, unit: &str, expanded: &str| {
+        assert!(values.contains(&value), "{value}: {values:?}");
+        assert!(units.contains(&unit), "{unit}: {units:?}");
+        assert!(
+            uncertainties.contains(&expanded),
+            "{expanded}: {uncertainties:?}"
+        );
+    };
+    has("101341", "\\pascal", "13");
+    has("18850.8", "\\radian\\minute\\tothe{-1}", "2.5");
+    has("25.20", "\\degreecelsius", "0.12");
+}
+
+/// What was used was no longer valid on the days that the certificate states, or the budget states another day.
+#[test]
+fn dates_that_do_not_fit_are_told() {
+    let folder = folder("dates");
+    let template = gumption::report::certificate_template(Language::English);
+    let data = folder.join("laboratory.toml");
+    std::fs::write(&data, &template).expect("a file");
+    let file = folder.join("dated.toml");
+    let told = |dates: &str, due: &str| {
+        let text = format!(
+            "{dates}[measurand.y]\nmodel = \"x\"\nunit = \"g\"\n[input.x]\nvalue = \"1 g\"\ncertificate = {{ U = 0.1, k = 2, due = {due} }}\n"
+        );
+        std::fs::write(&file, text).expect("a budget");
+        let data = data.to_str().expect("a path");
+        let run = program()
+            .args(["eval", "--no-mc", "--certificate", data])
+            .arg(&file)
+            .output();
+        String::from_utf8_lossy(&run.expect("the program runs").stdout).into_owned()
+    };
+    assert!(told("", "2020-01-01").contains("was due on 2020-01-01"));
+    assert!(!told("", "2099-01-01").contains("Caution"));
+    assert!(told("date = 2020-01-01\n", "2099-01-01").contains("measured on 2020-01-01"));
+    for (key, date, said) in [
+        ("received", "2099-01-01", "received after it was measured"),
+        (
+            "issued",
+            "2020-01-01",
+            "issued before the measurement has ended",
+        ),
+    ] {
+        let from = template.find(&format!("\n{key} = ")).expect(key) + 1;
+        let to = from + template[from..].find('\n').expect("a line");
+        let wrong = format!("{}{key} = {date}{}", &template[..from], &template[to..]);
+        std::fs::write(&data, wrong).expect("a file");
+        let run = program()
+            .args(["eval", "--no-mc", "--certificate"])
+            .args([&data, &file])
+            .output();
+        let run = run.expect("the program runs");
+        let stderr = String::from_utf8_lossy(&run.stderr);
+        assert!(stderr.contains(said), "{stderr}");
+    }
+}
+
 /// `pydcc`, a reader of others, finds what the statement says.
 #[test]
 fn another_reader_finds_the_figures_of_the_statement() {

@@ -4,7 +4,7 @@ use gumption_core::quantity::{Decimal, Rounded, Rounding, Unit, space_before};
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{Reason, Reported, ReportedUncertainty};
 
-use super::number::{STYLE, at_place, effective, exact, print, significant};
+use super::number::{STYLE, at_place, effective, exact, print, shown, significant};
 use super::{Report, symbol};
 use crate::language::Language;
 
@@ -54,6 +54,8 @@ impl<'a> Figures<'a> {
     /// y, without its unit.
     pub fn estimate(&self) -> String {
         match &self.pair {
+            // Zeros behind the decimal marker that say no more than the exponent of U.
+            Some(pair) if pair.estimate.is_zero() && !pair.is_plain() => "0".to_owned(),
             Some(pair) => print(&pair.estimate),
             None => exact(self.reported.estimate),
         }
@@ -200,7 +202,7 @@ fn product(a: &Decimal, b: &Decimal) -> f64 {
 fn beside(pair: &Rounded, uncertainty: &Decimal) -> String {
     match pair.is_plain() {
         true => uncertainty.print_plain(),
-        false => print(uncertainty),
+        false => shown(uncertainty),
     }
 }
 

@@ -35,7 +35,8 @@ pub(super) fn significant_up(x: f64, digits: u8) -> String {
     shown(&number.round_to_significant(digits, Rounding::Up))
 }
 
-fn shown(rounded: &Decimal) -> String {
+/// A rounded number without zeros that would only fill up to the decimal marker.
+pub(super) fn shown(rounded: &Decimal) -> String {
     match (rounded.leading_place(), rounded.place()) {
         (Some(leading), Some(place)) if place > 0 => {
             format!(

@@ -1,7 +1,7 @@
 //! Units as the D-SI writes them (`\milli\volt\second\tothe{-1}`; Digital System of Units, 2.2), there and back.
 
-use super::builtin::{PREFIXES, UNITS};
-use super::dimension::STEPS;
+use super::builtin::{Definition, PREFIXES, UNITS};
+use super::dimension::{STEPS, exponent_text};
 use super::symbol;
 use super::{Unit, UnitKind, UnitTable};
 
@@ -35,7 +35,7 @@ const NAMES: &[(i32, &str)] = &[
 
 impl Unit {
     /// The unit in the notation of the D-SI; `None` where the D-SI has no name for a part of it (inch, standard gravity),
-    /// so that values must be given in the [coherent](Unit::coherent) unit.
+    /// so that values must be given in another [one](Unit::with_dsi_names).
     pub fn dsi(&self) -> Option<String> {
         if self.is_one() {
             return Some("\\one".to_owned());
@@ -46,6 +46,94 @@ impl Unit {
             .map(|(name, exponent)| Some(format!("{}{}", named(name)?, power(*exponent))));
         written.collect()
     }
+
+    /// The unit with what each part that the D-SI has no name for is defined by: `rad/min` for `r/min`, `N·m` for `lbf·ft`; the
+    /// [coherent](Unit::coherent) one of units that are not built in.
+    pub fn with_dsi_names(&self) -> Unit {
+        let own = symbol::terms(&self.symbol).and_then(|terms| {
+            let mut parts = Vec::new();
+            for (name, exponent) in terms {
+                resolve(&name, exponent, &mut parts)?;
+            }
+            let each = parts.iter().filter(|(_, exponent)| *exponent != 0);
+            let each = each.map(|(name, exponent)| format!("{name}{}", exponent_text(*exponent)));
+            let product = each.collect::<Vec<_>>().join("·");
+            match product.is_empty() {
+                true => Some(Unit::one()),
+                false => UnitTable::default().parse(&product).ok(),
+            }
+        });
+        let coherent = || Unit::coherent(self.dimension);
+        let own = own.filter(|own| self.conversion_to(own).is_some());
+        own.unwrap_or_else(coherent)
+    }
+}
+
+/// Adds a name raised to so many sixtieths as parts that have names; `None` of one that is not built in.
+fn resolve(name: &str, exponent: i32, parts: &mut Vec<(String, i32)>) -> Option<()> {
+    if named(name).is_some() {
+        match parts.iter_mut().find(|(own, _)| own == name) {
+            Some((_, own)) => *own = own.checked_add(exponent)?,
+            None => parts.push((name.to_owned(), exponent)),
+        }
+        return Some(());
+    }
+    let definition = match defined(name)? {
+        Definition::Point(..) => "°C",
+        Definition::Equal(text) => text.rsplit(' ').next().unwrap_or(text),
+        Definition::Base(..) | Definition::Decibels(_) => return None,
+    };
+    // A number alone, as of `‰` and `count`, has none.
+    let terms = symbol::terms(definition).unwrap_or_default();
+    let mut own = Vec::new();
+    for (name, exponent) in &terms {
+        resolve(name, *exponent, &mut own)?;
+    }
+    // A volt-ampere is no watt, and an angle no event.
+    let is_named = terms.iter().all(|(name, _)| named(name).is_some());
+    let turns = own.iter().any(|(name, _)| name == "rad");
+    if let Some(special) = special_name(name).filter(|_| !is_named && !turns) {
+        own = vec![(special.to_owned(), STEPS)];
+    }
+    for (name, own) in own {
+        let whole = i64::from(own) * i64::from(exponent) / i64::from(STEPS);
+        resolve(&name, i32::try_from(whole).ok()?, parts)?;
+    }
+    Some(())
+}
+
+/// The coherent derived unit with a special name that a built-in one is a multiple of: the newton of `kgf`.
+fn special_name(name: &str) -> Option<&'static str> {
+    let table = UnitTable::default();
+    let dimension = table.parse(name).ok()?.dimension;
+    let derived = |unit: &&super::BuiltinUnit| {
+        unit.kind == UnitKind::Si && matches!(unit.definition, Definition::Equal(_))
+    };
+    let is_alike = |symbol: &str| {
+        table
+            .parse(symbol)
+            .is_ok_and(|unit| unit.dimension == dimension)
+    };
+    let mut all = UNITS
+        .iter()
+        .filter(derived)
+        .filter(|unit| is_alike(unit.symbol));
+    Some(all.next()?.symbol)
+}
+
+/// What a built-in unit, with a prefix or without, is defined by.
+fn defined(symbol: &str) -> Option<Definition> {
+    let known = |symbol: &str| {
+        let mut units = UNITS.iter();
+        units.find(|unit| unit.symbol == symbol || unit.aliases.contains(&symbol))
+    };
+    let prefixed = || {
+        let mut stems = PREFIXES
+            .iter()
+            .filter_map(|(prefix, _)| symbol.strip_prefix(prefix));
+        stems.find_map(known)
+    };
+    Some(known(symbol).or_else(prefixed)?.definition)
 }
 
 /// `\kilo\ohm` for `kΩ`.
@@ -185,6 +273,34 @@ mod tests {
             let back = UnitTable::default().parse_dsi(dsi).expect(dsi);
             let same = back.conversion_to(&unit(text)).expect(text);
             assert!(same.is_identity(), "{text}: {back:?}");
+        }
+    }
+
+    #[test]
+    fn parts_without_a_name_are_what_they_are_defined_by() {
+        for (text, dsi) in [
+            ("r/min", "\\radian\\minute\\tothe{-1}"),
+            ("rpm", "\\radian\\minute\\tothe{-1}"),
+            ("mmHg", "\\pascal"),
+            ("mbar", "\\pascal"),
+            ("inHg", "\\pascal"),
+            ("kgf", "\\newton"),
+            ("psi", "\\pascal"),
+            ("hp", "\\watt"),
+            ("lbf·m", "\\newton\\metre"),
+            ("°F", "\\degreecelsius"),
+            ("Δ°F", "\\kelvin"),
+            ("Ci", "\\becquerel"),
+            ("in/ft", "\\one"),
+            ("count", "\\one"),
+            ("V/√count", "\\volt"),
+            ("HV", "\\one"),
+            ("kWh", "\\watt\\hour"),
+            ("kVA", "\\volt\\ampere"),
+        ] {
+            let own = unit(text).with_dsi_names();
+            assert_eq!(own.dsi().as_deref(), Some(dsi), "{text}");
+            assert!(unit(text).conversion_to(&own).is_some(), "{text}");
         }
     }
 

@@ -123,8 +123,13 @@ fn several(certificate: &Certificate, result: &Certified, points: &[CertifiedPoi
         .with(words(certificate, "dcc:name", "Point", "测量点"))
         .with(text("dcc:charsXMLList", labels.join(" ")));
     let mut data: Vec<Element> = Vec::new();
-    let freedom: Option<Vec<String>> = points.iter().map(|point| point.freedom.clone()).collect();
-    data.extend(freedom.map(|all| freedoms(certificate, &all)));
+    // An infinite number has no form of its own.
+    let stated = |point: &CertifiedPoint| point.freedom.clone();
+    if points.iter().any(|point| point.freedom.is_some()) {
+        let all = points.iter().map(stated);
+        let all: Vec<String> = all.map(|own| own.unwrap_or(NOT_STATED.into())).collect();
+        data.push(freedoms(certificate, &all));
+    }
     data.extend(
         result
             .conformity
@@ -209,6 +214,13 @@ fn lists(result: &Certified, points: &[CertifiedPoint]) -> Option<Element> {
             _ => None,
         })
         .collect();
+    let distributions: Option<Vec<String>> = points
+        .iter()
+        .map(|point| match &point.uncertainty {
+            CertifiedUncertainty::Expanded { distribution, .. } => distribution.clone(),
+            _ => None,
+        })
+        .collect();
     let expanded = expanded?;
     let column = |at: usize| joined(expanded.iter().map(|one| one[at].clone()).collect());
     let values = joined(points.iter().map(|point| point.value.clone()).collect());
@@ -216,7 +228,8 @@ fn lists(result: &Certified, points: &[CertifiedPoint]) -> Option<Element> {
     let uncertainty = xml::element("si:expandedMUXMLList")
         .with(text("si:valueExpandedMUXMLList", column(0)))
         .with(text("si:coverageFactorXMLList", column(1)))
-        .with(text("si:coverageProbabilityXMLList", column(2)));
+        .with(text("si:coverageProbabilityXMLList", column(2)))
+        .with_all(distributions.map(|all| text("si:distributionXMLList", joined(all))));
     Some(
         xml::element("si:realListXMLList")
             .with(text("si:valueXMLList", values))
@@ -252,8 +265,14 @@ fn conformity(certificate: &Certificate, one: &CertifiedConformity) -> Element {
         CertifiedVerdict::ConditionalPass => "conditionalPass",
         CertifiedVerdict::ConditionalFail => "conditionalFail",
     };
-    let english = format!("Conformity of {}", one.name);
-    let chinese = format!("{} 的符合性", one.name);
+    let (mut english, mut chinese) = (
+        format!("Conformity of {}", one.name),
+        format!("{} 的符合性", one.name),
+    );
+    if let Some(point) = &one.point {
+        english = format!("{english}, {point}");
+        chinese = format!("{chinese}，{point}");
+    }
     let made = xml::element("dcc:metaData")
         .attribute("refType", "basic_conformity")
         .with(words(certificate, "dcc:name", &english, &chinese))

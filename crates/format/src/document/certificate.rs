@@ -28,6 +28,20 @@ impl Told {
     }
 }
 
+impl Told {
+    /// Keeps what is told in these languages; a text that is in others alone is kept as the only one that there is.
+    fn keep(&mut self, languages: &[Language]) {
+        let own = |of: &Option<Language>| of.is_none_or(|of| languages.contains(&of));
+        match self.0.iter().any(|(of, _)| own(of)) {
+            true => self.0.retain(|(of, _)| own(of)),
+            false => {
+                self.0.truncate(1);
+                self.0.iter_mut().for_each(|(of, _)| *of = None);
+            }
+        }
+    }
+}
+
 /// What is certified, and by whom.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
@@ -47,8 +61,23 @@ pub struct Certificate {
     pub results: Vec<Certified>,
     /// What joins several results of one point.
     pub region: Option<Region>,
+    /// The day of the measurement that the budget states.
+    pub measured: Option<String>,
+    /// Certificates of what was used that are valid up to a day.
+    pub references: Vec<Reference>,
     /// Files to be handed over with it.
     pub attachments: Vec<Attachment>,
+}
+
+/// A certificate of something that was used, valid up to a day.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reference {
+    /// Of which quantity.
+    pub of: String,
+    /// Its number.
+    pub number: Option<String>,
+    /// The day.
+    pub due: String,
 }
 
 /// The results of one measurand at one point or several.
@@ -108,14 +137,16 @@ pub enum CertifiedUncertainty {
     None,
 }
 
-/// Conformity of an item at every point.
+/// Conformity of an item at one point or at all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedConformity {
     /// The item.
     pub name: String,
+    /// The point that it is about, where that is not all of them.
+    pub point: Option<String>,
     /// Tolerance and decision rule.
     pub rule: Told,
-    /// The verdict at each point.
+    /// The verdict at each of these points; none where it is withheld.
     pub verdicts: Vec<CertifiedVerdict>,
 }
 
@@ -235,14 +266,31 @@ pub struct Person {
 pub struct Condition {
     /// The quantity.
     pub name: Told,
-    /// As people read it.
-    pub text: String,
+    /// As people read it: the value, U, k and p.
+    pub text: Vec<String>,
     /// Value.
     pub value: String,
     /// Unit.
     pub unit: String,
     /// U, and its k and p.
     pub expanded: Option<[String; 3]>,
+}
+
+impl Administration {
+    /// With the texts of these languages.
+    #[must_use]
+    pub fn in_languages(mut self, languages: &[Language]) -> Self {
+        let contacts = [&mut self.laboratory.name, &mut self.customer.name];
+        let items = self.items.iter_mut().map(|item| &mut item.name);
+        let roles = self
+            .persons
+            .iter_mut()
+            .filter_map(|person| person.role.as_mut());
+        let conditions = self.conditions.iter_mut().map(|one| &mut one.name);
+        let all = contacts.into_iter().chain(items).chain(roles);
+        all.chain(conditions).for_each(|told| told.keep(languages));
+        self
+    }
 }
 
 impl Certificate {

@@ -15,7 +15,8 @@ use gumption_fault::language::Language;
 
 pub use certificate::{
     Administration, Attachment, Certificate, Certified, CertifiedConformity, CertifiedPoint,
-    CertifiedUncertainty, CertifiedVerdict, Condition, Contact, Item, Person, Region, Told,
+    CertifiedUncertainty, CertifiedVerdict, Condition, Contact, Item, Person, Reference, Region,
+    Told,
 };
 pub use math::Math;
 pub use plot::{Axis, Bar, Layer, Marks, Panel, Plot, Scale, Tone};

@@ -23,7 +23,7 @@ use super::tables::{
     PlaceWord, needed,
 };
 use crate::figures::with_unit;
-use crate::number::exact;
+use crate::number::{exact, probability};
 use crate::symbol;
 
 /// Reads the data of a certificate.
@@ -145,13 +145,26 @@ impl Check<'_> {
             let fault = Fault::new(MISSING_KEY, stated.span.clone(), message);
             self.faults.push(fault.label(say!("begun on {first}")));
         }
+        let received = self.day(&file.received);
+        if let (Some(received), Some(stated)) = (&received, &file.received)
+            && last.as_ref().is_some_and(|last| received > last)
+        {
+            let message = say!("the item is received after it was measured");
+            self.contradicts(stated.span.clone(), message, last.as_deref());
+        }
+        let issued = self.day(&file.issued);
+        if let (Some(issued), Some(stated)) = (&issued, &file.issued)
+            && last.as_ref().is_some_and(|last| issued < last)
+        {
+            let message = say!("the certificate is issued before the measurement has ended");
+            self.contradicts(stated.span.clone(), message, last.as_deref());
+        }
         let due = self.day(&file.due);
         if let (Some(last), Some(stated)) = (&last, &file.due)
             && due.as_ref().is_some_and(|due| due <= last)
         {
             let message = say!("the next calibration is due before this one has ended");
-            let fault = Fault::new(MISSING_KEY, stated.span.clone(), message);
-            self.faults.push(fault.label(say!("ended on {last}")));
+            self.contradicts(stated.span.clone(), message, Some(last));
         }
         let laboratory = self.stated(&file.laboratory, "laboratory", &end);
         let customer = self.stated(&file.customer, "customer", &end);
@@ -164,7 +177,7 @@ impl Check<'_> {
         Administration {
             number,
             country: contact.country.clone().unwrap_or_default(),
-            received: self.day(&file.received),
+            received,
             performed: [begin.unwrap_or_default(), last.unwrap_or_default()],
             place: match file.place.as_ref().map(|word| word.value) {
                 None | Some(PlaceWord::Laboratory) => "laboratory",
@@ -174,7 +187,7 @@ impl Check<'_> {
                 Some(PlaceWord::Other) => "other",
             }
             .to_owned(),
-            issued: self.day(&file.issued),
+            issued,
             due,
             code: laboratory.and_then(|table: &LaboratoryTable| text(&table.code)),
             laboratory: contact,
@@ -187,6 +200,13 @@ impl Check<'_> {
                 .filter_map(|one| self.condition(one))
                 .collect(),
         }
+    }
+
+    /// A date that does not fit the last day of the measurement.
+    fn contradicts(&mut self, place: Range<usize>, message: Said, last: Option<&str>) {
+        let last = last.unwrap_or_default();
+        let fault = Fault::new(MISSING_KEY, place, message);
+        self.faults.push(fault.label(say!("ended on {last}")));
     }
 
     fn missing(&mut self, key: &str, table: &str, place: Range<usize>) {
@@ -377,12 +397,17 @@ impl Check<'_> {
         Some(Condition {
             name,
             text: match expanded {
-                None => shown,
+                None => vec![shown],
                 Some(size) => {
                     let stated = table.U.as_ref().map_or(0..0, |stated| stated.span.clone());
                     let size = self.as_written(size, &stated);
                     let size = with_unit(&size, &symbol(&unit.difference()));
-                    format!("{shown}, U = {size}, k = {}", exact(k))
+                    let p = table
+                        .p
+                        .as_ref()
+                        .map(|p| format!("p = {}", probability(p.value)));
+                    let beside = [format!("U = {size}"), format!("k = {}", exact(k))];
+                    std::iter::once(shown).chain(beside).chain(p).collect()
                 }
             },
             value: notation.value(number),

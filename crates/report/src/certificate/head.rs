@@ -1,6 +1,11 @@
 //! What stands at the head of a certificate, in every format.
 
-use gumption_format::document::{Administration, Attachment, Block, Contact, Document, Item};
+use gumption_fault::language::Language;
+use gumption_fault::{Said, say};
+use gumption_format::document::{
+    Administration, Attachment, Block, Certificate, Condition, Contact, Document, Finding, Item,
+    Severity,
+};
 
 /// The document of an evaluation as that of a certificate: its number, dates, laboratory, customer and items stand first,
 /// and a digital certificate can be written of it, with these files in it.
@@ -13,8 +18,9 @@ pub fn certified(
     let Some(certificate) = document.certificate.as_mut() else {
         return document;
     };
-    certificate.administration = Some(given.clone());
+    certificate.administration = Some(given.clone().in_languages(&certificate.languages));
     certificate.attachments = attachments;
+    let doubts = doubts(certificate, given);
     let head = fields(given, &document);
     let signature = document.words("Signature", "签字");
     let behind_statement = |block: &Block| matches!(block, Block::Statement(_));
@@ -25,8 +31,46 @@ pub fn certified(
         document.edit(|blocks| blocks.insert(at + 1, Block::Fields(vec![(signature, line)])));
     }
     let behind_title = usize::from(matches!(document.blocks().first(), Some(Block::Title(_))));
-    document.edit(|blocks| blocks.insert(behind_title, Block::Fields(head)));
+    document.edit(|blocks| {
+        blocks.insert(behind_title, Block::Fields(head));
+        if !doubts.is_empty() {
+            blocks.insert(behind_title + 1, Block::Findings(doubts));
+        }
+    });
     document
+}
+
+/// Dates of the budget that do not fit the days of the measurement, in each language of the certificate.
+fn doubts(certificate: &Certificate, given: &Administration) -> Vec<Finding> {
+    let [begin, end] = &given.performed;
+    let day = |date: &str| date.get(..10).unwrap_or(date).to_owned();
+    let expired = certificate
+        .references
+        .iter()
+        .filter(|one| day(&one.due) < *end);
+    let expired = expired.map(|one| {
+        let (of, due) = (&one.of, &one.due);
+        let name = one.number.as_deref().unwrap_or(of);
+        let said = say!("The certificate {name} of {of} was due on {due}, before the measurement of this certificate ended on {end}.");
+        ("expired_reference", said)
+    });
+    let measured = certificate.measured.as_deref().map(day);
+    let other = measured.filter(|measured| measured < begin || measured > end);
+    let other = other.map(|measured| {
+        let said =
+            say!("The budget was measured on {measured}, this certificate says {begin} to {end}.");
+        ("other_date", said)
+    });
+    let all: Vec<(&str, Said)> = expired.chain(other).collect();
+    let told = all.iter().flat_map(|(id, said)| {
+        certificate.languages.iter().map(|language| Finding {
+            id: (*id).to_owned(),
+            severity: Severity::Warning,
+            language: *language,
+            text: said.in_language(*language),
+        })
+    });
+    told.collect()
 }
 
 /// Letters that a signature takes.
@@ -69,19 +113,32 @@ fn fields(given: &Administration, document: &Document) -> Vec<(String, String)> 
     };
     add("Place", "测量地点", Some(place));
     for condition in &given.conditions {
-        let text = format!("{}: {}", document.told(&condition.name), condition.text);
-        add("Condition", "环境条件", Some(text));
+        add("Condition", "环境条件", Some(stated(condition, document)));
     }
     add("Issued", "签发日期", given.issued.clone());
     add("Next calibration", "下次校准日期", given.due.clone());
     for person in &given.persons {
         let role = person.role.as_ref().map(|role| document.told(role));
         let text = role.map_or(person.name.clone(), |role| {
-            format!("{}, {role}", person.name)
+            [person.name.as_str(), &role].join(punctuated(document).comma())
         });
         add("Responsible", "责任人", Some(text));
     }
     fields
+}
+
+/// The language of what is punctuated: English marks stand between words of two languages.
+fn punctuated(document: &Document) -> Language {
+    document
+        .other
+        .map_or(document.language, |_| Language::English)
+}
+
+/// A condition with its uncertainty, k and p.
+fn stated(condition: &Condition, document: &Document) -> String {
+    let l = punctuated(document);
+    let text = condition.text.join(l.comma());
+    l.with_head(&document.told(&condition.name), &text)
 }
 
 fn contact(contact: &Contact, document: &Document) -> String {
@@ -94,7 +151,11 @@ fn contact(contact: &Contact, document: &Document) -> String {
         town,
         contact.country.clone(),
     ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    parts
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(punctuated(document).comma())
 }
 
 fn item(item: &Item, document: &Document) -> String {
@@ -110,5 +171,9 @@ fn item(item: &Item, document: &Document) -> String {
         numbered("customer's number", "委托方编号", &item.customer_number),
         numbered("laboratory's number", "实验室编号", &item.laboratory_number),
     ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    parts
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(punctuated(document).comma())
 }

@@ -14,7 +14,7 @@ use gumption_core::quantity::{Decimal, Unit};
 use gumption_fault::say;
 use gumption_format::document::{
     Certificate, Certified, CertifiedConformity, CertifiedPoint, CertifiedUncertainty,
-    CertifiedVerdict, Region, Told,
+    CertifiedVerdict, Reference, Region, Told,
 };
 use gumption_gum::budget::profile_named;
 use gumption_gum::propagate::{CoverageBasis, ReportedUncertainty, StatedProbability, Verdict};
@@ -54,38 +54,85 @@ pub(crate) fn of(rows: &[Report<'_>], statement: Vec<String>) -> Option<Certific
             ([one], true) => region(one),
             _ => None,
         },
+        measured: heading.date.clone(),
+        references: references(first),
         attachments: Vec::new(),
     })
 }
 
+/// Certificates of what was used that are valid up to a day.
+fn references(report: &Report<'_>) -> Vec<Reference> {
+    let components = report.budget.components.iter();
+    let valid = components.filter_map(|component| {
+        let certificate = component.certificate.as_ref()?;
+        Some(Reference {
+            of: component.name.to_string(),
+            number: certificate.number.clone(),
+            due: certificate.due.clone()?,
+        })
+    });
+    valid.collect()
+}
+
 fn of_measurand(rows: &[Report<'_>], measurand: usize) -> Option<Certified> {
     let first = &rows[0];
-    let l = first.language;
     let (name, unit) = first.measurand(measurand);
     let notation = Notation::of(unit)?;
     let points = rows.iter().map(|row| point(row, measurand, &notation));
     let about = &first.budget.measurands[measurand].description;
-    let decided: Vec<Vec<Decided<'_>>> = rows
-        .iter()
-        .map(|row| decisions::decided(row, measurand))
-        .collect();
-    let conformity = decided[0].iter().enumerate().map(|(at, one)| {
-        let rule = say!("Tolerance {}. Decision rule: {}.", one.tolerance, one.rule).in_language(l);
-        let verdicts = decided.iter().filter_map(|row| verdict(row.get(at)?));
-        CertifiedConformity {
-            name: one.name.to_owned(),
-            rule: Told::in_language(l, rule),
-            verdicts: verdicts.collect(),
-        }
-    });
     Some(Certified {
         name: name.to_owned(),
         description: about.as_ref().map(Told::everywhere),
         unit: notation.unit.clone(),
         deviation_unit: notation.deviation_unit.clone(),
-        conformity: conformity.collect(),
+        conformity: conformity(rows, measurand),
         points: points.collect(),
     })
+}
+
+/// Once for all points where they have one tolerance, one rule and a verdict each; else for each point by itself.
+fn conformity(rows: &[Report<'_>], measurand: usize) -> Vec<CertifiedConformity> {
+    let l = rows[0].language;
+    let decided: Vec<Vec<Decided<'_>>> = rows
+        .iter()
+        .map(|row| decisions::decided(row, measurand))
+        .collect();
+    let rule = |one: &Decided<'_>| {
+        say!("Tolerance {}. Decision rule: {}.", one.tolerance, one.rule).in_language(l)
+    };
+    let said = |point: Option<&str>, one: &Decided<'_>, verdicts: Vec<CertifiedVerdict>| {
+        let withheld = l.pick(" No verdict.", "不作判定。");
+        let withheld = if verdicts.is_empty() { withheld } else { "" };
+        CertifiedConformity {
+            name: one.name.to_owned(),
+            point: point.map(str::to_owned),
+            rule: Told::in_language(l, format!("{}{withheld}", rule(one))),
+            verdicts,
+        }
+    };
+    let items = decided.iter().map(Vec::len).max().unwrap_or(0);
+    let of_item = |at: usize| {
+        let each: Vec<(&Report<'_>, &Decided<'_>)> = (rows.iter().zip(&decided))
+            .filter_map(|(row, decided)| Some((row, decided.get(at)?)))
+            .collect();
+        let verdicts: Option<Vec<CertifiedVerdict>> =
+            each.iter().map(|(_, one)| verdict(one)).collect();
+        let is_of_all = each.len() == rows.len();
+        let is_alike = |(_, one): &(_, &Decided<'_>)| {
+            let first = each[0].1;
+            (one.name, &one.tolerance, &one.rule) == (first.name, &first.tolerance, &first.rule)
+        };
+        match verdicts.filter(|_| is_of_all && each.iter().all(is_alike)) {
+            Some(verdicts) => vec![said(None, each[0].1, verdicts)],
+            None => (each.iter())
+                .map(|(row, one)| {
+                    let verdicts = verdict(one).into_iter().collect();
+                    said(row.label, one, verdicts)
+                })
+                .collect(),
+        }
+    };
+    (0..items).flat_map(of_item).collect()
 }
 
 fn verdict(decided: &Decided<'_>) -> Option<CertifiedVerdict> {
@@ -110,13 +157,18 @@ fn point(row: &Report<'_>, measurand: usize, notation: &Notation) -> CertifiedPo
     let k = figures
         .k()
         .filter(|_| reported.coverage_factor().is_some_and(|k| k >= 1.0));
+    let mut value = notation.printed_value(&figures.estimate());
     let uncertainty = match (figures.expanded(), &k, figures.interval()) {
-        (Some(expanded), Some(k), _) => CertifiedUncertainty::Expanded {
-            expanded: notation.printed_deviation(&expanded),
-            k: k.clone(),
-            p,
-            distribution: distribution(row, measurand, reported.uncertainty),
-        },
+        (Some(expanded), Some(k), _) => {
+            let [estimate, expanded] = notation.printed_result(&figures.estimate(), &expanded);
+            value = estimate;
+            CertifiedUncertainty::Expanded {
+                expanded,
+                k: k.clone(),
+                p,
+                distribution: distribution(row, measurand, reported.uncertainty),
+            }
+        }
         (Some(expanded), None, _) => {
             // Half an interval, of a distribution without a standard deviation.
             let number = |text: &str| Decimal::from_text(text).filter(Decimal::is_finite);
@@ -148,7 +200,7 @@ fn point(row: &Report<'_>, measurand: usize, notation: &Notation) -> CertifiedPo
     let freedom = figures.freedom().filter(|freedom| freedom != "∞");
     CertifiedPoint {
         label: row.label.unwrap_or_default().to_owned(),
-        value: notation.printed_value(&figures.estimate()),
+        value,
         uncertainty,
         freedom: freedom.filter(|_| k.is_some()),
     }

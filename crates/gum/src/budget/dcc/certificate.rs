@@ -39,7 +39,7 @@ pub(super) struct Quantity {
     /// Its points.
     pub values: Vec<Value>,
     /// ν_eff, one for each point or none.
-    pub freedom: Vec<f64>,
+    pub freedom: Vec<Option<f64>>,
 }
 
 /// Reads a certificate.
@@ -199,7 +199,7 @@ fn words(list: Node<'_, '_>) -> Vec<String> {
 }
 
 /// ν_eff, where a certificate states it beside the quantity.
-fn freedom(quantity: Node<'_, '_>, points: usize, faults: &mut Faults) -> Vec<f64> {
+fn freedom(quantity: Node<'_, '_>, points: usize, faults: &mut Faults) -> Vec<Option<f64>> {
     let stated = child(quantity, "measurementMetaData").into_iter();
     let mut stated = stated
         .flat_map(|all| children(all, "metaData"))
@@ -212,7 +212,6 @@ fn freedom(quantity: Node<'_, '_>, points: usize, faults: &mut Faults) -> Vec<f6
     };
     let list = at(quantity, &["real", "value"])
         .or_else(|| at(quantity, &["realListXMLList", "valueXMLList"]));
-    let all: Option<Vec<f64>> =
-        list.map(|list| numbers(list, faults).into_iter().flatten().collect());
+    let all = list.map(|list| numbers(list, faults));
     all.filter(|all| all.len() == points).unwrap_or_default()
 }

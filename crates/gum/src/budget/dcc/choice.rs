@@ -25,7 +25,7 @@ pub(super) fn choose(
     let at = point(quantity, file, table)?;
     Ok(Chosen {
         value: quantity.values[at].clone(),
-        freedom: quantity.freedom.get(at).copied(),
+        freedom: quantity.freedom.get(at).copied().flatten(),
     })
 }
 

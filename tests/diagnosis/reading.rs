@@ -376,3 +376,30 @@ fn a_common_error_of_an_output_is_in_the_parameters() {
     let expected = 0.02 / 100_000.0_f64.sqrt();
     assert!((u("K") / expected - 1.0).abs() < 0.02, "{found:#}");
 }
+
+/// A standard that was recalibrated every quarter, and repaired in July 2023.
+#[test]
+fn moments_of_the_calendar_are_told_by_the_calendar() {
+    let mut noise = Noise(3);
+    let mut rows = "date,U [V]\n".to_owned();
+    let quarters =
+        (2019..2027).flat_map(|year| ["01-15", "04-17", "07-20", "10-16"].map(|day| (year, day)));
+    for (year, day) in quarters {
+        let repaired = (year, day) >= (2023, "07-20");
+        let jump = if repaired { 1.5e-4 } else { 0.0 };
+        let _ = writeln!(
+            rows,
+            "{year}-{day},{:.6}",
+            10.0 + jump + 2e-5 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = U0\"\n[columns]\nU = \"output\"\ndate = \"time\"\n";
+    let found = diagnosed_with("calendar", &rows, case);
+    let statement = found["statement"].as_str().unwrap_or_default();
+    assert!(statement.contains("at date = 2023-07-20"), "{statement}");
+    let place = found["located"][0]["level"].as_str().unwrap_or_default();
+    assert!(
+        place.starts_with("20") && place.contains(" to 20"),
+        "{found}"
+    );
+}

@@ -54,6 +54,18 @@ impl Day {
         365 * year + leap_days + of_year - 719_468
     }
 
+    /// The day that is so many days after 1970-01-01, or before it.
+    pub fn at(days: i64) -> Day {
+        const DAYS_OF_400_YEARS: i64 = 146_097;
+        let periods = days.div_euclid(DAYS_OF_400_YEARS);
+        let day = Day::after_1970(days.rem_euclid(DAYS_OF_400_YEARS).unsigned_abs());
+        let year = (day.year.cast_signed() + 400 * periods).clamp(0, 9999);
+        Day {
+            year: year.unsigned_abs(),
+            ..day
+        }
+    }
+
     /// The day that is so many days after 1970-01-01.
     pub fn after_1970(days: u64) -> Day {
         // Periods of 400 years are alike; the count of years and months in the last one is short.

@@ -250,6 +250,10 @@ impl<'a> Draft<'a> {
             name: self.heading.name.clone(),
             unit: self.unit,
             decimal_comma: self.style == Style::Comma,
+            epoch: match self.style {
+                Style::Clock(first) => Some(first.epoch()),
+                _ => None,
+            },
             data: match self.content {
                 Content::Labels => Data::Labels(self.labels),
                 _ => Data::Numbers(numbers),

@@ -3,6 +3,7 @@
 use gumption_core::calendar::Day;
 use gumption_fault::{Said, say};
 
+use super::epoch::{Epoch, Form};
 use super::sheet::Sheet;
 use crate::spelled::spelled;
 
@@ -25,12 +26,23 @@ pub(super) enum Field {
 pub(super) struct Instant {
     whole: i64,
     rest: f64,
+    /// How far the clock that it is written by is ahead of UTC.
+    ahead: i64,
+    form: Form,
 }
 
 impl Instant {
     /// Seconds from another instant to this one.
     pub fn since(self, other: Instant) -> f64 {
         (self.whole - other.whole) as f64 + (self.rest - other.rest)
+    }
+
+    /// The same as that from which others are counted.
+    pub fn epoch(self) -> Epoch {
+        Epoch {
+            seconds: self.whole + self.ahead,
+            form: self.form,
+        }
     }
 }
 
@@ -134,11 +146,11 @@ fn plain(text: &str) -> Option<f64> {
 /// A time as ISO 8601 has it: `2026-03-01T09:00:01.25+08:00`, also with a blank for the T, with slashes, as
 /// `01.03.2026 09:00:01` or without zone; a date alone, `2026-03-01`; or a time of the day alone, `09:00:01.25`.
 fn instant(text: &str) -> Option<Instant> {
-    let (date, clock) = match text.split_once(['T', ' ']) {
-        Some((date, clock)) => (Some(date), clock.trim_start()),
+    let (date, clock, form) = match text.split_once(['T', ' ']) {
+        Some((date, clock)) => (Some(date), clock.trim_start(), Form::DateAndClock),
         // A date alone is the beginning of its day.
-        None if days_of(text).is_some() => (Some(text), "00:00"),
-        None => (None, text),
+        None if days_of(text).is_some() => (Some(text), "00:00", Form::Date),
+        None => (None, text, Form::Clock),
     };
     let days = date.map_or(Some(0), days_of)?;
     let (clock, offset) = zone(clock)?;
@@ -163,6 +175,8 @@ fn instant(text: &str) -> Option<Instant> {
     Some(Instant {
         whole: 86_400 * days + of_day - offset,
         rest,
+        ahead: offset,
+        form,
     })
 }
 

@@ -38,6 +38,7 @@ mod columns;
 mod doubts;
 mod draft;
 mod encoding;
+mod epoch;
 pub mod faults;
 mod field;
 mod heading;
@@ -55,6 +56,7 @@ pub use columns::{Cells, Columns};
 pub use doubts::{overload, two_decimal_signs};
 pub use encoding::{Decoded, Encoding, Undecodable, decode, western};
 pub(crate) use encoding::{is_utf16, with_line_feeds};
+pub use epoch::Epoch;
 pub use field::{OVERLOAD, date_meant, days, mend_of_number, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
@@ -93,6 +95,8 @@ pub struct Column {
     pub unit: Option<Unit>,
     /// Whether its numbers were written with decimal commas.
     pub decimal_comma: bool,
+    /// From where its times of the calendar or of the day are counted, where it has such.
+    pub epoch: Option<Epoch>,
     /// What it holds, row by row.
     pub data: Data,
     /// Its numbers with all the digits that are written, where decimals were asked for.

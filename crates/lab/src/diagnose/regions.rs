@@ -106,7 +106,16 @@ fn spans(fitted: &FittedModel<'_>) -> Vec<Region> {
         let first = members[0][0];
         let last = members[members.len() - 1].last().copied().unwrap_or(first);
         let (factor, span) = match fitted.clock.column {
-            Some(column) => (fitted.label(column), extent((t[first], t[last]), t, &unit)),
+            Some(column) => {
+                let ends = fitted
+                    .by_calendar(t[first])
+                    .zip(fitted.by_calendar(t[last]));
+                let span = match ends {
+                    Some((from, to)) => format!("{from} to {to}"),
+                    None => extent((t[first], t[last]), t, &unit),
+                };
+                (fitted.label(column), span)
+            }
             None => {
                 let [from, to] = [first, last].map(|row| fitted.design.recorded(row));
                 ("rows", format!("{} to {}", from.start + 1, to.end))

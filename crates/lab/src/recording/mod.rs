@@ -64,5 +64,5 @@ pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label};
 pub(crate) use segment::{by_steps, by_stillness};
 
 pub use gumption_format::csv::{
-    Column, Content, Data, Heading, Labels, Recording, Request, headings, text_of,
+    Column, Content, Data, Epoch, Heading, Labels, Recording, Request, headings, text_of,
 };

@@ -94,8 +94,8 @@ fn set(cell: Option<&Cell>, column: &Column, width: usize) -> Vec<String> {
 /// A cell on one line.
 fn text(cell: &Cell) -> String {
     match cell {
-        Cell::Text(text) => text.clone(),
-        Cell::Part(part) => format!("{PART}{part}"),
+        Cell::Text(text) => text.replace('\n', " "),
+        Cell::Part(part) => format!("{PART}{}", part.replace('\n', " ")),
         Cell::Share(_) | Cell::Empty => String::new(),
     }
 }

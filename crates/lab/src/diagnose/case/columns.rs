@@ -66,6 +66,7 @@ impl Checker<'_> {
                 u_common,
                 full_scale,
                 resolution,
+                epoch: column.and_then(|column| column.epoch),
                 ..Column::new(&w.name, w.role, &unit, data.taken(&complete))
             });
         }
@@ -86,6 +87,7 @@ impl Column {
             u_common: None,
             full_scale: None,
             resolution: None,
+            epoch: None,
             as_difference: false,
         }
     }

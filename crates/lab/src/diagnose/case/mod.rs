@@ -13,7 +13,7 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
-use crate::recording::Labels;
+use crate::recording::{Epoch, Labels};
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
 use gumption_core::quantity::{Unit, UnitTable};
@@ -100,6 +100,8 @@ pub struct Column {
     pub full_scale: Option<f64>,
     /// The step of its numbers, where it is stated.
     pub resolution: Option<f64>,
+    /// From where its times of the calendar or of the day are counted, where it has such.
+    pub epoch: Option<Epoch>,
     /// Whether formulas take temperatures with an origin as differences from 0 of their scale.
     pub as_difference: bool,
 }

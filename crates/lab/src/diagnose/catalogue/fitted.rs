@@ -304,6 +304,20 @@ impl<'f> FittedModel<'f> {
         amount(figure(time), &self.time_unit())
     }
 
+    /// A moment as the recording tells it: by the calendar or the clock, else by its number.
+    pub fn moment(&self, time: f64) -> String {
+        let numbered = || amount(figure(time), &self.time_unit());
+        self.by_calendar(time).unwrap_or_else(numbered)
+    }
+
+    /// A moment by the calendar or the clock, where the recording has times of these.
+    pub fn by_calendar(&self, time: f64) -> Option<String> {
+        let column = &self.case().columns[self.clock.column?];
+        let second = UnitTable::default().parse("s").ok()?;
+        let to_seconds = column.unit.conversion_to(&second)?;
+        Some(column.epoch?.moment(to_seconds.apply(time)))
+    }
+
     /// What the time is called: its column, or the row.
     pub fn along_time(&self) -> String {
         (self.clock.column)

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::angles::runs;
 use super::building::{decay, form, of_the_whole, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{figure, five_digits, flag, grid, map, range};
+use super::modifiers::{five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
@@ -216,7 +216,7 @@ fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) 
 /// A drift that begins so long after the start.
 fn begun(fitted: &FittedModel<'_>, since: &[f64], from: f64) -> Variation {
     let unit = fitted.time_unit();
-    let label = format!("from {} {unit} on", figure(began_at(fitted) + from));
+    let label = format!("from {} on", fitted.moment(began_at(fitted) + from));
     form(label, vec![later(fitted, since, from)]).shaped("x₀", from, &unit)
 }
 
@@ -243,8 +243,8 @@ fn step(fitted: &FittedModel<'_>, along: &str, row: usize) -> Variation {
     let names_moments = fitted.clock.column.is_some() && fitted.clock.values.is_sorted();
     let label = match names_moments {
         true => {
-            let time = figure(fitted.clock.values[row]);
-            format!("at {along} = {time} {}", fitted.time_unit())
+            let time = fitted.moment(fitted.clock.values[row]);
+            format!("at {along} = {time}")
         }
         false => format!("at row {number}"),
     };

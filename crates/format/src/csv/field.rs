@@ -351,6 +351,8 @@ mod tests {
         let zero = Instant {
             whole: 0,
             rest: 0.0,
+            ahead: 0,
+            form: Form::Clock,
         };
         instant(text).map(|instant| instant.since(zero))
     }

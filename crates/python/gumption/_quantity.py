@@ -343,8 +343,8 @@ def quantity(
 ) -> Quantity:
     """A quantity of which something is known.
 
-    ``u`` is its standard uncertainty; anything else is said as in an input of a budget file: ``half_width=0.1``,
-    ``dof=9``, ``readings=[…]`` (without ``value``), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
+    ``u`` is its standard uncertainty; ``quantity("5 V", 0.01)`` has its unit with the value; anything else is said as in an
+    input of a budget file: ``half_width=0.1``, ``dof=9``, ``readings=[…]`` (without ``value``), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
     A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so. ``name`` is what
     reports call it.
     """
@@ -360,6 +360,9 @@ def quantity(
         raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
     if name is not None and _OURS.fullmatch(name):
         raise ValueError(f"{name!r} cannot be the name of a quantity: results are called so, and quantities without a name")
+    if isinstance(value, str) and unit is None:
+        # "5 V" says its unit, in which a number for u is, too.
+        unit = value.strip().partition(" ")[2].strip() or None
     # What can be seen at once is told at once, and not where a figure is asked for.
     for what, number in (("value", value), ("u", u)):
         if isinstance(number, numbers.Real) and not math.isfinite(number):

@@ -50,6 +50,13 @@ def test_quantities_go_to_other_processes_and_come_back():
     assert math.isclose((a + b).u, math.sqrt(0.03), rel_tol=1e-9)
 
 
+def test_a_value_says_its_unit():
+    written = quantity("5 V", 0.01)
+    apart = quantity(5, 0.01, "V")
+    assert str(written) == str(apart)
+    assert (written / quantity("2 A", 0.02)).u == (apart / quantity(2, 0.02, "A")).u
+
+
 def test_what_is_no_quantity():
     with pytest.raises(ValueError, match="nothing here is uncertain"):
         quantity(1).y

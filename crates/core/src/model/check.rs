@@ -208,6 +208,7 @@ impl<'r> Check<'r> {
                 let lowered = self.l.value(value);
                 let binding = lowered.map_or(Binding::Faulty, Binding::Value);
                 self.define(name, binding, index);
+                self.l.note_provenance(&name.text, value);
             }
             Statement::Function {
                 name,

@@ -10,7 +10,11 @@ pub fn lowered(l: &mut Lowering<'_>, e: &Expr) -> Option<Value> {
         Node::Number { value, unit, .. } => l.literal(*value, unit.as_deref()),
         Node::Unit(unit) => l.stray_unit(e, unit),
         Node::Name(name) => l.name(name, &e.span),
-        Node::Chain { first, rest } => l.chain(e, first, rest),
+        Node::Chain { first, rest } => {
+            let value = l.chain(e, first, rest)?;
+            l.turned_once(e, first, rest)?;
+            Some(value)
+        }
         Node::Power { base, exponent } => l.power(e, base, exponent),
         Node::Minus(inner) => l.negative(inner),
         Node::Not(inner) => l.negation(inner),

@@ -11,7 +11,7 @@ use super::printer;
 use super::syntax::{Expr, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
-use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, unit_of_angle};
+use crate::quantity::{Dimension, Unit, hint_for_clash, unit_of_angle};
 use gumption_fault::{Fault, Said, say};
 
 /// A measurand may be a vector of up to so many elements.
@@ -88,6 +88,7 @@ impl Check<'_> {
         // The names of this text are its own.
         for name in std::mem::take(&mut self.added) {
             self.l.scope.remove(&name);
+            self.l.provenances.remove(&name);
             self.defined.remove(&name);
             self.spans.remove(&name);
         }
@@ -106,6 +107,7 @@ impl Check<'_> {
         let text = Rc::clone(&self.statements[statement].statement);
         let (value, expr) = self.statement_value(&text, statement)?;
         let (ids, unit) = self.result(index, measurand, &value, expr, place)?;
+        self.l.note_provenance(measurand.name, expr);
         self.l.scaled_once(measurand.name, &value, expr, &unit)?;
         Some(Outcome {
             ids,
@@ -229,11 +231,13 @@ impl Check<'_> {
             self.point_result(measurand.name, expr, found, wanted);
             return None;
         }
-        if let Some(help) = revolutions_as_angle(found, wanted, &printer::factor(expr)) {
-            let help = match unit_of_angle(found) {
-                Some(other) => say!("{help}, or {other}"),
-                None => help,
-            };
+        let turn = self.l.hidden_turn(expr, found, wanted);
+        let turn = turn.map(|help| match unit_of_angle(found) {
+            Some(other) => say!("{help}, or {other}"),
+            None => help,
+        });
+        let hidden = turn.or_else(|| self.l.hidden_portion(expr, found, wanted));
+        if let Some(help) = hidden {
             let message = say!(
                 "the value is {}, but `{}` should be {}",
                 in_words(found),

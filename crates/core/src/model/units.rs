@@ -9,7 +9,7 @@ use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node, Span};
-use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_as_angle};
+use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_in};
 use gumption_fault::{Fault, Said, say};
 
 /// A quantity and the expression it came from.
@@ -181,12 +181,13 @@ impl Lowering<'_> {
             self.clash(left, right, what);
             return None;
         }
-        let counted = revolutions_as_angle(b, a, &printer::factor(right.expr));
-        let counted = counted.or_else(|| revolutions_as_angle(a, b, &printer::factor(left.expr)));
-        if let Some(help) = counted {
+        let sides = [(left.expr, a), (right.expr, b)];
+        if let Some(help) = self.hidden_turn_between(sides) {
             self.counted_revolutions(left.expr, right.expr, [a, b], help);
             return None;
         }
+        self.term_once(right.expr, b, a)?;
+        self.term_once(left.expr, a, b)?;
         if a.dimension != Dimension::NONE || a.factor == b.factor {
             return Some(a.clone());
         }
@@ -275,10 +276,7 @@ impl Lowering<'_> {
             )
             .label(say!("would be radians"))
             .related(angle.span.clone(), say!("in {}", unit.symbol))
-            .help(say!(
-                "write `{text} '{}'`, or `{text} 'rad'` if radians are meant",
-                unit.symbol
-            )),
+            .help(angle_help(&text, angle, unit)),
         );
     }
 
@@ -400,6 +398,22 @@ impl Lowering<'_> {
     /// Whether this is a quantity that was stated without a unit.
     pub fn has_no_unit(&self, name: &str) -> bool {
         self.symbol(name).is_some_and(|s| s.unit.is_one())
+    }
+}
+
+/// What a number beside an angle lacks. What turns in a time that another quantity counts, `n/f`, is counted itself.
+fn angle_help(number: &str, angle: &Expr, unit: &Unit) -> Said {
+    let operator = if unit.factor.pi > 0 { "/" } else { "*" };
+    match unit.full_turn() {
+        None if revolutions_in(unit) != 0 => say!(
+            "in {} a revolution is an angle, 2π: count revolutions by `{} {operator} (1 'r')`",
+            unit.symbol,
+            printer::factor(angle)
+        ),
+        _ => say!(
+            "write `{number} '{}'`, or `{number} 'rad'` if radians are meant",
+            unit.symbol
+        ),
     }
 }
 

@@ -91,59 +91,6 @@ pub fn per_coulomb(unit: &Unit) -> Option<Said> {
     })
 }
 
-/// What to write where a conversion would silently hold 2π: revolutions are an angle, 2π each, but `Hz` and
-/// a period in seconds count them. `None` where the conversion is harmless; `text` is what is converted.
-///
-/// Only units of angle and time alone are asked: what the radian per second stands for in `W/(°/s)` or in
-/// a noise density is no count.
-pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<Said> {
-    let rate = Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
-    let period = Dimension::of([0, 0, 1, 0, 0, 0, 0, 0]);
-    if found.dimension != wanted.dimension || ![rate, period].contains(&found.dimension) {
-        return None;
-    }
-    let is_rate = found.dimension == rate;
-    if is_turning(found) && is_count(wanted) {
-        let operator = if is_rate { "/" } else { "*" };
-        return Some(say!(
-            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`",
-            found.symbol
-        ));
-    }
-    (is_rate && names_in(&found.symbol) == ["Hz"] && is_turning(wanted)).then(|| {
-        say!(
-            "a revolution is an angle, 2π, in {}: write `{text} * (1 'r')` for revolutions that are counted in Hz",
-            wanted.symbol
-        )
-    })
-}
-
-/// What a result in such a unit may state in place of a count, to follow what [`revolutions_as_angle`] says.
-pub(crate) fn unit_of_angle(found: &Unit) -> Option<Said> {
-    let (rate, period) = (
-        say!("write `unit = \"rad/s\"` for the angular velocity"),
-        say!("write `unit = \"s/rad\"` for the reciprocal of the angular velocity"),
-    );
-    let is_rate = found.dimension == Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
-    is_turning(found).then_some(if is_rate { rate } else { period })
-}
-
-/// Revolutions or degrees per time, or a time for each: `rpm`, `r/min`, `°/s`, `min/r`.
-fn is_turning(unit: &Unit) -> bool {
-    let turns = |name: &String| ["r", "rev", "°", "deg", "rpm"].contains(&name.as_str());
-    let names = names_in(&unit.symbol);
-    let times = |name: &String| ["s", "ms", "min", "h", "d"].contains(&name.as_str());
-    unit.factor.pi.abs() == 1
-        && names.iter().any(turns)
-        && names.iter().all(|name| turns(name) || times(name))
-}
-
-/// Events per time, or a time for each, without any angle: `Hz`, `1/min`, `s`.
-fn is_count(unit: &Unit) -> bool {
-    let plain = |name: &String| !name.ends_with("rad");
-    unit.factor.pi == 0 && names_in(&unit.symbol).iter().all(plain)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::UnitTable;
@@ -151,36 +98,6 @@ mod tests {
 
     fn unit(text: &str) -> Unit {
         UnitTable::default().parse(text).expect(text)
-    }
-
-    #[test]
-    fn revolutions_are_not_counted_in_silence() {
-        let lost = |a: &str, b: &str| revolutions_as_angle(&unit(a), &unit(b), "n");
-        for (a, b, mend) in [
-            ("r/min", "Hz", "n / (1 'r')"),
-            ("rpm", "1/min", "n / (1 'r')"),
-            ("°/s", "kHz", "n / (1 'r')"),
-            ("min/r", "s", "n * (1 'r')"),
-            ("Hz", "r/min", "n * (1 'r')"),
-        ] {
-            let help = lost(a, b).unwrap_or_default().to_string();
-            assert!(help.contains(mend), "{a} to {b}: {help}");
-        }
-        for (a, b) in [
-            ("r/min", "rad/s"),
-            ("r/min", "°/s"),
-            ("rad/s", "Hz"),
-            ("s^-1", "r/min"),
-            ("Hz", "1/s"),
-            ("N·m·r/min", "W"),
-            ("°", "1"),
-            ("(°/s)^2/Hz", "(°/h)^2/Hz"),
-            ("(°/h)^2/Hz", "(°/h)^2/Hz"),
-            ("rad·s/°", "s"),
-            ("mN·m·s/(°·kg·m^2)", "1/s"),
-        ] {
-            assert_eq!(lost(a, b), None, "{a} to {b}");
-        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ use crate::model::operation::{binary_row, unary};
 use crate::model::printer;
 use crate::model::syntax::{Expr, Name, Span};
 use crate::model::{MeasurandSource, Place, Symbol};
-use crate::quantity::{Unit, UnitTable};
+use crate::quantity::{Unit, UnitTable, revolutions_in};
 use gumption_fault::{Fault, say};
 
 /// Expressions and calls inside one another, with user functions written out.
@@ -70,6 +70,15 @@ pub enum Binding {
     Faulty,
 }
 
+/// What the formula of a defined name tells of revolutions.
+#[derive(Debug, Clone, Copy)]
+pub struct Provenance {
+    /// Whether π is in it.
+    pub holds_pi: bool,
+    /// Whether it is made of times and of what is counted.
+    pub is_counted: bool,
+}
+
 /// The state of the check.
 pub struct Lowering<'r> {
     pub builder: Builder,
@@ -81,6 +90,10 @@ pub struct Lowering<'r> {
     pub units: &'r UnitTable,
     /// What the statements so far define.
     pub scope: HashMap<String, Binding>,
+    /// What their formulas tell of revolutions.
+    pub provenances: HashMap<String, Provenance>,
+    /// Whether an input or constant has revolutions in its unit.
+    pub has_revolutions: bool,
     /// Parameters of the function being written out, and unknowns of `solve`.
     pub locals: Vec<HashMap<String, Value>>,
     /// The text being read.
@@ -115,6 +128,8 @@ impl<'r> Lowering<'r> {
             given: Vec::with_capacity(symbols.len()),
             units,
             scope: HashMap::new(),
+            provenances: HashMap::new(),
+            has_revolutions: symbols.iter().any(|s| revolutions_in(&s.unit) != 0),
             locals: vec![HashMap::new()],
             place: Place::Shared,
             faults: Vec::new(),

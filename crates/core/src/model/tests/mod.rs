@@ -1,5 +1,6 @@
 //! Tests of the model language as its users see it.
 
+mod conversions;
 mod derivatives;
 mod library;
 mod messages;

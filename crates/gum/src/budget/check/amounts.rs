@@ -446,7 +446,7 @@ fn place_of_unit(amount: &Stated<Amount>) -> Range<usize> {
 /// Revolutions that are an angle in one of two units and counted in the other.
 fn counted_revolutions(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
     clash(amount, own, unit, owner).help(say!(
-        "a revolution is an angle, 2π, in r/min, rpm and °/s, and counted in Hz and seconds: state the amount in {}",
+        "a revolution is an angle, 2π, in r/min, °/s and rad/s, and counted in Hz, 1/min and seconds: state the amount in {}",
         unit.symbol
     ))
 }

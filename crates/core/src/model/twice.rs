@@ -2,16 +2,27 @@
 //! values to the wanted unit.
 
 use super::catalogue::{FunctionInfo, find};
+use super::digits::{NEAR, tolerance};
 use super::faults;
 use super::lower::{Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::{Role, Symbol};
 use crate::quantity::{Dimension, Unit};
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, Said, say};
 
-/// Rounding of 0.01745 or 57.3 by the user.
-const NEAR: f64 = 1e-3;
+/// A number of a formula, with how far it may have been rounded, relative to itself.
+#[derive(Clone, Copy)]
+struct Written {
+    value: f64,
+    tolerance: f64,
+}
+
+impl Written {
+    fn is(self, factor: f64) -> bool {
+        (self.value / factor - 1.0).abs() <= self.tolerance.max(4.0 * f64::EPSILON)
+    }
+}
 
 impl Lowering<'_> {
     /// Refuses a formula that converts its value to the wanted unit by a number, although units are converted without it:
@@ -23,21 +34,39 @@ impl Lowering<'_> {
         expr: &Expr,
         wanted: &Unit,
     ) -> Option<()> {
-        let Some((term, number)) = self.scaled_by_hand(value, expr, wanted) else {
+        if let Some((term, number)) = self.scaled_by_hand(value, expr, wanted) {
+            self.report(scaled_twice(term, number, name, &wanted.symbol));
+            return None;
+        }
+        let mut open = vec![expr];
+        while let Some(e) = open.pop() {
+            if let Some((quantity, unit, number)) = self.factor_of_unit(e) {
+                self.report(factor_twice(e, number, quantity, &unit.symbol));
+                return None;
+            }
+            open.extend(in_proportion(e));
+        }
+        Some(())
+    }
+
+    /// Refuses a term that converts itself by a number to the unit of another that it meets: `L + d/1000`, `1 - p/100`.
+    pub fn term_once(&mut self, term: &Expr, own: &Unit, other: &Unit) -> Option<()> {
+        let Some(factor) = own.conversion_to(other).map(|c| c.factor) else {
             return Some(());
         };
-        let (text, symbol) = (printer::expression(term), &wanted.symbol);
-        self.report(
-            Fault::new(
-                faults::SCALED_TWICE,
-                term.span.clone(),
-                say!("the factor {number} would convert `{name}` to {symbol} a second time: units are converted without it"),
-            )
-            .label(say!("a conversion to {symbol}"))
-            .help(say!(
-                "leave {number} out of `{text}`; if it belongs to the measurement, as a dilution does, state it by name in [constant], or write `{number} '1'`"
-            )),
-        );
+        let product = match &term.node {
+            Node::Minus(inner) => inner,
+            _ => term,
+        };
+        let (Node::Chain { first, rest }, false) = (&product.node, factor == 1.0) else {
+            return Some(());
+        };
+        let number = self.number_of(first, rest);
+        let Some(number) = number.filter(|number| number.is(factor)) else {
+            return Some(());
+        };
+        let text = printer::expression(product);
+        self.report(scaled_twice(product, number.value, &text, &other.symbol));
         None
     }
 
@@ -52,8 +81,6 @@ impl Lowering<'_> {
         if factor == 1.0 {
             return None;
         }
-        // π is written with some digits only.
-        let near = if wanted.factor.pi == 0 { 0.0 } else { NEAR };
         // A purity in percent has a factor of its own beside the one from mg and mL to mg/L.
         let names = expr
             .names()
@@ -68,41 +95,78 @@ impl Lowering<'_> {
         factors.extend(ratios.flat_map(of_ratio));
         // One converts nothing: the percent of the result is that of the ratio.
         factors.retain(|factor| (factor - 1.0).abs() > NEAR);
-        let is_it = |number: f64| {
-            let mut factors = factors.iter();
-            factors.any(|f| (number / f - 1.0).abs() <= near.max(f64::EPSILON))
-        };
         let mut open = vec![expr];
         while let Some(e) = open.pop() {
             let number = match &e.node {
                 Node::Number {
                     value, unit: None, ..
-                } if near == 0.0 => Some(*value),
+                } if wanted.factor.pi == 0 => Some(Written {
+                    value: *value,
+                    tolerance: 0.0,
+                }),
                 Node::Chain { first, rest } => self.number_of(first, rest),
                 _ => None,
             };
-            if let Some(number) = number.filter(|number| is_it(*number)) {
-                return Some((e, number));
+            if let Some(number) = number.filter(|n| factors.iter().any(|f| n.is(*f))) {
+                return Some((e, number.value));
             }
             open.extend(in_proportion(e));
         }
         None
     }
 
+    /// The quantity of a product whose unit has the very factor that the numbers of the product make, `h / 100 * e` with h in
+    /// percent, its unit and that factor; not where the unit cancels, nor where the quantity is alone with the number.
+    fn factor_of_unit<'e>(&mut self, e: &'e Expr) -> Option<(&'e str, Unit, f64)> {
+        let Node::Chain { first, rest } = &e.node else {
+            return None;
+        };
+        let number = self.number_of(first, rest)?;
+        let factors =
+            std::iter::once((Infix::Mul, &**first)).chain(rest.iter().map(|(i, e)| (*i, e)));
+        let mut quantities = Vec::new();
+        for (infix, factor) in factors {
+            let is_number = self.constant(factor).is_some();
+            let unit = self.value(factor)?.unit()?.clone();
+            if !is_number && !unit.is_one() {
+                quantities.push((infix, factor, unit));
+            }
+        }
+        let is_it = |(infix, factor, unit): &(Infix, &'e Expr, Unit)| {
+            let own = match infix {
+                Infix::Div => 1.0 / unit.factor.value(),
+                _ => unit.factor.value(),
+            };
+            let mut others = quantities.iter();
+            let is_cancelled = others.any(|(i, _, u)| i != infix && u.dimension == unit.dimension);
+            match &factor.node {
+                Node::Name(name) if (own - 1.0).abs() > NEAR && number.is(own) && !is_cancelled => {
+                    Some((name.as_str(), unit.clone(), number.value))
+                }
+                _ => None,
+            }
+        };
+        let is_alone = quantities.len() < 2;
+        quantities.iter().find_map(is_it).filter(|_| !is_alone)
+    }
+
     /// The numbers of a product taken together, if it has other factors besides.
-    fn number_of(&mut self, first: &Expr, rest: &[(Infix, Expr)]) -> Option<f64> {
+    fn number_of(&mut self, first: &Expr, rest: &[(Infix, Expr)]) -> Option<Written> {
         let factors = std::iter::once((Infix::Mul, first)).chain(rest.iter().map(|(i, e)| (*i, e)));
-        let (mut number, mut others) = (1.0, false);
+        let (mut value, mut tolerance, mut others) = (1.0, 0.0, false);
         for (infix, factor) in factors {
             let constant = self.constant(factor);
             match (infix, constant) {
-                (Infix::Mul, Some(constant)) => number *= constant,
-                (Infix::Div, Some(constant)) => number /= constant,
+                (Infix::Mul, Some(constant)) => value *= constant,
+                (Infix::Div, Some(constant)) => value /= constant,
                 (Infix::Mul | Infix::Div, None) => others = true,
                 _ => return None,
             }
+            if constant.is_some() {
+                tolerance += rounding(factor);
+            }
         }
-        others.then_some(number)
+        others.then_some(Written { value, tolerance })
     }
 
     /// The value of a number of the formula that has no name and no unit, which would say that it is meant.
@@ -274,6 +338,45 @@ fn product(mut factors: Vec<(Infix, Expr)>, term: &Expr) -> Expr {
         first: Box::new(first),
         rest: factors,
     })
+}
+
+/// How far the numbers of a factor may have been rounded altogether.
+fn rounding(e: &Expr) -> f64 {
+    match &e.node {
+        Node::Number { text, .. } => tolerance(text),
+        _ => e.children().into_iter().map(rounding).sum(),
+    }
+}
+
+/// The fault of a number that converts what units convert already.
+fn scaled_twice(term: &Expr, number: f64, what: &str, symbol: &str) -> Fault {
+    let symbol = match symbol {
+        "1" => say!("a number without unit"),
+        symbol => Said::from(symbol.to_owned()),
+    };
+    let message = say!(
+        "the factor {number} would convert `{what}` to {symbol} a second time: units are converted without it"
+    );
+    Fault::new(faults::SCALED_TWICE, term.span.clone(), message)
+        .label(say!("a conversion to {symbol}"))
+        .help(left_out(term, number))
+}
+
+/// The fault of a number that is in the unit of a quantity already.
+fn factor_twice(term: &Expr, number: f64, quantity: &str, symbol: &str) -> Fault {
+    let message = say!(
+        "the factor {number} is in {symbol}, the unit of `{quantity}`, already: units are converted without it"
+    );
+    Fault::new(faults::SCALED_TWICE, term.span.clone(), message)
+        .label(say!("the factor is in the unit already"))
+        .help(left_out(term, number))
+}
+
+fn left_out(term: &Expr, number: f64) -> Said {
+    let text = printer::expression(term);
+    say!(
+        "leave {number} out of `{text}`; if it belongs to the measurement, as a dilution does, state it by name in [constant], or write `{number} '1'`"
+    )
 }
 
 /// Whether an expression is made of numbers and names only.

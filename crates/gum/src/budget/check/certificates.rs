@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::draft::{Context, Core, show};
+use super::factors::no_factor;
 use super::register::Register;
 use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
 use crate::budget::tables::{CertificateTable, ComponentTable};
@@ -134,7 +135,10 @@ impl Checker<'_> {
                         .help(say!("write the k of the certificate, mostly 2; if it states a coverage probability instead, write p = 0.95")),
                 );
             }
-            Some(k) => Some(self.positive(k, "k")?),
+            Some(k) => Some(match no_factor(k, dof, "p") {
+                Some(fault) => return self.refuse(fault),
+                None => self.positive(k, "k")?,
+            }),
             None => None,
         };
         let from_p = match &table.p {

@@ -1,6 +1,7 @@
 //! Profile, conventions and the settings of the Monte Carlo method.
 
 use super::checker::Checker;
+use super::factors::no_factor;
 use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS};
 use crate::budget::profile::{PROFILES, profile_named};
 use crate::budget::tables::{
@@ -88,7 +89,9 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
         }
     }
     if let Some(k) = &table.coverage_factor {
-        if k.value > 0.0 {
+        if let Some(fault) = no_factor(k, f64::INFINITY, "coverage_probability") {
+            faults.push(fault);
+        } else if k.value > 0.0 {
             conventions.coverage_factor = CoverageRule::Fixed(k.value);
         } else {
             faults.push(

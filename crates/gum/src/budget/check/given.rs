@@ -4,10 +4,11 @@ use super::checker::Checker;
 use super::draft::{Context, Core, Location};
 use super::ways::Way;
 use crate::budget::distributions::{self, DistributionEntry};
-use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
+use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS, UNIT_CLASH};
 use crate::budget::tables::{ComponentTable, PriorWord};
 use gumption_core::distribution::stating::Parametric;
 use gumption_core::distribution::{Distribution, Empirical, StudentT, binomial, poisson};
+use gumption_core::quantity::Factor;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
@@ -97,6 +98,11 @@ impl Checker<'_> {
     /// Events of a Poisson process: the rate is gamma distributed (JCGM 101 6.4.11).
     fn count(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let stated = table.count.as_ref()?;
+        if let Some(fault) = unit_of_a_count(stated, context) {
+            return self.refuse(fault.help(say!(
+                "leave `unit` out: the model makes of a count what it stands for, as in `{} / t` for a rate", context.owner
+            )));
+        }
         let n = stated.value as f64;
         let Some(expected) = poisson::expected_events(n, prior_counts(table)) else {
             return self.refuse(no_events(stated, context));
@@ -112,6 +118,11 @@ impl Checker<'_> {
     /// Successes of Bernoulli trials: the proportion is beta distributed.
     fn proportion(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let stated = table.successes.as_ref()?;
+        if let Some(fault) = unit_of_a_count(stated, context) {
+            return self.refuse(fault.help(say!(
+                "leave `unit` out: the proportion is a number from 0 to 1, which a measurand in % shows in percent"
+            )));
+        }
         let Some(trials) = &table.trials else {
             return self.refuse(
                 Fault::new(
@@ -205,4 +216,14 @@ fn no_events(stated: &Stated<u64>, context: &Context<'_>) -> Fault {
     )
     .label(say!("gives no proper distribution"))
     .help(say!("write prior = \"jeffreys\" or \"uniform\""))
+}
+
+/// A count in a unit that is not one: 2591 in `1/min` would be a rate already.
+fn unit_of_a_count(stated: &Stated<u64>, context: &Context<'_>) -> Option<Fault> {
+    let unit = context.unit;
+    let is_one = unit.dimension.is_none() && unit.factor == Factor::ONE;
+    (!is_one).then(|| {
+        let message = say!("{} is counted, but in {}", context.owner, unit.symbol);
+        Fault::new(UNIT_CLASH, stated.key.clone(), message).label(say!("a number without unit"))
+    })
 }

@@ -17,6 +17,7 @@ mod csv;
 mod detection;
 mod draft;
 mod entries;
+mod factors;
 mod fits;
 mod formulas;
 mod given;

@@ -251,6 +251,24 @@ impl Checker<'_> {
                 .label(say!("expected 1 to 64")),
             );
         }
+        // A correction for the digits may be zero in any range.
+        let value = context.value().filter(|value| *value != 0.0);
+        if let Some(value) = value.filter(|value| !(lower..=upper).contains(value)) {
+            return self.refuse(
+                Fault::new(
+                    LIMITS,
+                    range.span.clone(),
+                    say!(
+                        "the value {} is outside the range {lower} to {upper}",
+                        show(value)
+                    ),
+                )
+                .label(say!("does not contain the value"))
+                .help(say!(
+                    "correct the value, or the range in which the quantiser reads it"
+                )),
+            );
+        }
         let step = (upper - lower) / libm::pow(2f64, bits.value as f64);
         let how = format!(
             "a = q/2, q = {}/2^{} = {}",

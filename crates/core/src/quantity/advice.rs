@@ -12,8 +12,12 @@ use gumption_fault::{Between, Said, nearest, say};
 /// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
 pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
     let whole = |first: &str, second: &str| match (first, second) {
-        ("deg" | "°", "C") => Some(say!("write `°C` or `degC`; with the coulomb, `C·°`")),
-        ("deg" | "°", "F") => Some(say!("write `°F` or `degF`; with the farad, `F·°`")),
+        ("deg" | "Deg" | "degree" | "°", "C") => {
+            Some(say!("write `°C` or `degC`; with the coulomb, `C·°`"))
+        }
+        ("deg" | "Deg" | "degree" | "°", "F") => {
+            Some(say!("write `°F` or `degF`; with the farad, `F·°`"))
+        }
         ("R" | "%R", "H") => Some(say!("write `%RH`")),
         ("dB", "A" | "C") => Some(say!(
             "declare the weighted level in the [unit] table, `dB{second} = \"dB\"`, and write `dB{second}`"
@@ -73,9 +77,12 @@ pub(super) fn for_unknown<'a>(
         own.iter().map(|name| name.as_str()).chain(builtin)
     };
     let same_letters = same_letters(name, &own);
-    // In names of one or two letters every other unit is only one letter away.
-    let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
+    let similar = || {
+        let near = nearest(name, known());
+        near.filter(|known| is_slip(name, known))
+    };
     match same_letters.as_slice() {
+        [] if let Some(symbol) = by_misspelt_name(name) => say!("write `{symbol}`"),
         [] => match similar() {
             Some(known) => say!(
                 "did you mean `{known}`? A unit of your own is declared in the [unit] table, a pure number as `{name} = \"1\"`"
@@ -93,6 +100,34 @@ pub(super) fn for_unknown<'a>(
     }
 }
 
+/// Whether one name may be a slip of the pen for the other. Of short names, and of those that begin with another letter, the
+/// one that is near is mostly another unit.
+fn is_slip(name: &str, known: &str) -> bool {
+    let first = |text: &str| text.to_lowercase().chars().next();
+    let (length, other) = (name.chars().count(), known.chars().count());
+    length > 3 && length.abs_diff(other) < 2 && first(name) == first(known)
+}
+
+/// The symbol of a unit that was written out with a slip: `celcius`.
+fn by_misspelt_name(name: &str) -> Option<&'static str> {
+    /// Shorter names are symbols.
+    const SHORTEST: usize = 5;
+    let lower = name.to_lowercase();
+    let names = || {
+        ENGLISH
+            .keys()
+            .map(String::as_str)
+            .filter(|known| known.len() >= SHORTEST)
+    };
+    let mut sorted: Vec<&str> = names().collect();
+    sorted.sort_unstable();
+    let near = nearest(&lower, sorted).filter(|known| is_slip(&lower, known))?;
+    ENGLISH
+        .get(near)
+        .copied()
+        .filter(|_| lower.len() >= SHORTEST)
+}
+
 /// All spellings of built-in units, those with prefixes last, each with its letters in lower case.
 static SPELLINGS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
     let plain = UNITS
@@ -100,7 +135,16 @@ static SPELLINGS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
         .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
     let prefixed = PREFIXES.iter().flat_map(|(prefix, _)| {
         let takes_prefix = UNITS.iter().filter(|unit| unit.prefixes == Prefixes::All);
-        takes_prefix.map(move |unit| format!("{prefix}{}", unit.symbol))
+        let names = takes_prefix.flat_map(|unit| {
+            // `ohm` stands for `Ohm` as well.
+            let is_first = |at: usize| {
+                let alike = |other: &&str| other.to_lowercase() == unit.aliases[at].to_lowercase();
+                !unit.aliases[..at].iter().any(|other| alike(other))
+            };
+            let aliases = (0..unit.aliases.len()).filter(move |at| is_first(*at));
+            std::iter::once(&unit.symbol).chain(aliases.map(|at| &unit.aliases[at]))
+        });
+        names.map(move |name| format!("{prefix}{name}"))
     });
     let all = plain.map(|name| (*name).to_owned()).chain(prefixed);
     let with_letters = |name: String| {
@@ -201,6 +245,10 @@ const QUALIFIERS: &[&str] = &[
     "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
 ];
 
+const KIND: Said = say!(
+    "a unit does not say which kind of value it is: leave it out, and say it in the description"
+);
+
 const CLASS: Said = say!(
     "a class is no amount: write the limits that it stands for, such as half_width = \"0.05 %\""
 );
@@ -211,6 +259,17 @@ const BY_PROCEDURE: &[&str] = &[
     "px", "IU", "meq", "mEq", "Eq", "Brix", "Shore", "IRHD", "ShoreA", "ShoreD", "个", "次", "件",
     "粒", "只",
 ];
+
+const STANDARD_LITRE: Said =
+    say!("write `L/min`, and say in the description at which temperature and pressure");
+
+const TON: Said = say!(
+    "write `t` for 1000 kg; another ton is declared in the [unit] table, as in `ton = \"2000 lb\"`"
+);
+
+const NO_UNIT: Said = say!(
+    "a quantity without a unit, n/a, has unit = \"1\"; what is counted is declared in the [unit] table, as in `n = \"1\"`"
+);
 
 /// Frequent mistakes that the distance between names would not explain.
 const FREQUENT: &[(&str, Said)] = &[
@@ -236,6 +295,85 @@ const FREQUENT: &[(&str, Said)] = &[
     ("度", say!("write `°` for an angle, `°C` for a temperature")),
     ("sec", say!("write `s`")),
     ("secs", say!("write `s`")),
+    ("Sec", say!("write `s`")),
+    ("SEC", say!("write `s`")),
+    ("msec", say!("write `ms`")),
+    ("usec", say!("write `µs`")),
+    ("µsec", say!("write `µs`")),
+    ("nsec", say!("write `ns`")),
+    ("lpm", say!("write `L/min`")),
+    ("LPM", say!("write `L/min`")),
+    ("slm", STANDARD_LITRE),
+    ("SLM", STANDARD_LITRE),
+    ("slpm", STANDARD_LITRE),
+    ("SLPM", STANDARD_LITRE),
+    (
+        "sccm",
+        say!("write `mL/min`, and say in the description at which temperature and pressure"),
+    ),
+    (
+        "rps",
+        say!("write `r/s` for the angular velocity, `1/s` for the number of revolutions per time"),
+    ),
+    (
+        "dbm",
+        say!(
+            "declare the level with its reference in the [unit] table, `dBm = \"dB\"`, and write `dBm`"
+        ),
+    ),
+    ("rms", KIND),
+    ("RMS", KIND),
+    ("dc", KIND),
+    ("DC", KIND),
+    ("ac", KIND),
+    ("AC", KIND),
+    ("pp", KIND),
+    ("pk", KIND),
+    ("peak", KIND),
+    ("abs", KIND),
+    ("gauge", KIND),
+    (
+        "psia",
+        say!("write `psi`, and say in the description that it is absolute"),
+    ),
+    (
+        "psig",
+        say!("write `psi`, and say in the description that it is above the ambient pressure"),
+    ),
+    (
+        "bara",
+        say!("write `bar`, and say in the description that it is absolute"),
+    ),
+    (
+        "barg",
+        say!("write `bar`, and say in the description that it is above the ambient pressure"),
+    ),
+    (
+        "kPaa",
+        say!("write `kPa`, and say in the description that it is absolute"),
+    ),
+    (
+        "kPag",
+        say!("write `kPa`, and say in the description that it is above the ambient pressure"),
+    ),
+    ("°K", say!("write `K`")),
+    ("K°", say!("write `K`")),
+    ("none", NO_UNIT),
+    ("None", NO_UNIT),
+    ("NONE", NO_UNIT),
+    ("n", NO_UNIT),
+    (
+        "c",
+        say!("write `Hz` for cycles per second, `C` for the coulomb"),
+    ),
+    ("centigrade", say!("write `°C`")),
+    ("celsius", say!("write `°C`")),
+    ("celcius", say!("write `°C`")),
+    ("Celcius", say!("write `°C`")),
+    ("ton", TON),
+    ("tons", TON),
+    ("lit", say!("write `L`")),
+    ("ltr", say!("write `L`")),
     ("hr", say!("write `h`")),
     ("hrs", say!("write `h`")),
     ("mins", say!("write `min`")),

@@ -102,7 +102,9 @@ is in K; in `u`, `half_width`, `U` and other deviations it is a difference.
 
 `rad` and `sr` are of dimension one with the value 1, so that `rad/s` and `1/s` fit together; `°` is
 π/180. `r` (revolution) is 2π, hence `r/min` and `rpm` are 6 °/s; give a number of revolutions per time that
-is not an angular velocity in `1/min` or `Hz`; a measurand in `Hz` is refused where it comes from `r/min`. Levels in `dB` and `Np` have a dimension of their own, so that
+is not an angular velocity in `1/min` or `Hz`. A conversion that would silently hold 2π is refused, with what to write in its place: from `r/min` or `rad/s` to
+`Hz`, from `1/min` or a period to `r/min`, a product such as `2*pi*n*M` or `pi*d*n` with n in `r/min`, a flow `n*V` with V in `mL` rather than `mL/r`. What
+a unit does not tell goes through: the advance `n*f` of a tool and the speed `n*d/2` of a rim have the same units. Levels in `dB` and `Np` have a dimension of their own, so that
 a level is never taken for a ratio by mistake.
 
 ## `g` is the gram

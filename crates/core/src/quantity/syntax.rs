@@ -77,7 +77,7 @@ pub(super) enum Numbers {
 /// Takes a unit text apart.
 pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
     let tokens = tokens(text)?;
-    if tokens.is_empty() {
+    if tokens.is_empty() || ["-", "–", "—"].contains(&text.trim()) {
         return Err(
             UnitError::new(EMPTY_UNIT, 0..text.len(), say!("the unit is empty"))
                 .help(say!("write \"1\" for a quantity of dimension one")),
@@ -655,6 +655,7 @@ mod tests {
     #[test]
     fn faults_point_at_their_place() {
         assert_eq!(error("").2, "write \"1\" for a quantity of dimension one");
+        assert_eq!(error("-").2, "write \"1\" for a quantity of dimension one");
         assert_eq!(error("  ").0, 0..2);
         assert_eq!(error("m/").1, "a unit is missing at the end");
         assert_eq!(error("/").0, 1..1);

@@ -568,6 +568,34 @@ mod tests {
         );
         assert_eq!(suggestion("毫米"), "write `mm`");
         assert_eq!(suggestion("毫米/秒"), "write `mm`");
+        for (text, mend) in [
+            ("Kohm", "`kohm`"),
+            ("MOHM", "`MΩ`"),
+            ("Sec", "write `s`"),
+            ("msec", "write `ms`"),
+            ("lpm", "write `L/min`"),
+            ("ton", "write `t` for 1000 kg"),
+            ("lit", "write `L`"),
+            ("°K", "write `K`"),
+            ("K°", "write `K`"),
+            ("V DC", "leave it out"),
+            ("V rms", "leave it out"),
+            ("kPa abs", "leave it out"),
+            ("psig", "above the ambient pressure"),
+            ("dbm", "`dBm = \"dB\"`"),
+            ("none", "unit = \"1\""),
+            ("n/a", "unit = \"1\""),
+            ("c/s", "`Hz`"),
+            ("celcius", "write `°C`"),
+            ("Amper", "write `A`"),
+            ("Deg C", "`°C`"),
+        ] {
+            let said = suggestion(text);
+            assert!(said.contains(mend), "{text}: {said}");
+        }
+        for text in ["tun", "zzz", "foo", "kip"] {
+            assert!(!suggestion(text).contains("did you mean"), "{text}");
+        }
         assert!(suggestion("gr").contains("`grain`"));
         assert!(suggestion("NTU").contains("[unit]"));
         assert!(!suggestion("克拉").contains("2.5"));

@@ -122,6 +122,9 @@ impl Lowering<'_> {
             return None;
         };
         let number = self.number_of(first, rest)?;
+        if (number.value - 1.0).abs() <= NEAR {
+            return None;
+        }
         let factors =
             std::iter::once((Infix::Mul, &**first)).chain(rest.iter().map(|(i, e)| (*i, e)));
         let mut quantities = Vec::new();

@@ -36,7 +36,7 @@ pub enum Kind<'t> {
 const WORDS: [&str; 6] = ["if", "then", "else", "and", "or", "not"];
 
 /// Spellings of operators: the common ones first, and of two that begin alike the longer.
-const SIGNS: [(&str, &str); 38] = [
+const SIGNS: [(&str, &str); 42] = [
     ("+", "+"),
     ("-", "-"),
     ("**", "^"),
@@ -64,6 +64,10 @@ const SIGNS: [(&str, &str); 38] = [
     ("·", "*"),
     ("⋅", "*"),
     ("∙", "*"),
+    ("∗", "*"),
+    ("•", "*"),
+    ("∕", "/"),
+    ("⁄", "/"),
     ("÷", "/"),
     ("−", "-"),
     ("－", "-"),
@@ -356,7 +360,15 @@ impl<'a> Lexer<'a, '_> {
             ':' if self.brackets > 0 => {
                 say!("there are no ranges: name the elements one by one, `[x[1], x[2], x[3]]`")
             }
-            ':' => say!("write `=` to define a quantity"),
+            ':' | '：' | '∶' => {
+                say!(
+                    "write `/` for a ratio, `=` to define a quantity, `if(condition, a, b)` to choose"
+                )
+            }
+            '?' => say!("write `if(condition, a, b)` to choose between two values"),
+            '±' => say!(
+                "a formula has values alone: write it without ± and what follows it, and state the uncertainty at its input"
+            ),
             '√' => say!("write `sqrt(x)`"),
             '{' | '}' => say!("use round brackets"),
             '|' => say!("the absolute value is `abs(x)`; logic is written in words: `or`"),
@@ -367,7 +379,7 @@ impl<'a> Lexer<'a, '_> {
                 let symbol = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
                 say!("write `{symbol}`")
             }
-            _ => say!("remove it"),
+            _ => say!("write what it means with `+ - * / ^`, brackets and functions"),
         };
         self.faults.push(
             Fault::new(

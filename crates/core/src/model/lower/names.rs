@@ -43,7 +43,12 @@ impl Lowering<'_> {
                 say!("a unit must stand right after a number"),
             )
             .label(say!("no number before this unit"))
-            .help(say!("write `1 '{}'`", unit.text)),
+            .help(match unit.text.trim().split_once(' ') {
+                Some((number, unit)) if number.parse::<f64>().is_ok() => {
+                    say!("write `{number} '{}'`", unit.trim())
+                }
+                _ => say!("write `1 '{}'`", unit.text),
+            }),
         );
         None
     }
@@ -140,6 +145,7 @@ impl Lowering<'_> {
         );
         known.sort_unstable();
         let product = product(name, &known);
+        let plain = full_width(name).filter(|plain| known.binary_search(&plain.as_str()).is_ok());
         let help = match nearest(name, known) {
             _ if self.defining.as_deref() == Some(name) => say!(
                 "`{name}` is what this formula gives; an equation with `{name}` on both sides is written `solve({name} == …, {name}, start)`"
@@ -147,6 +153,7 @@ impl Lowering<'_> {
             _ if let Some((first, second)) = product => {
                 say!("a product has its sign: {first} * {second}")
             }
+            _ if let Some(plain) = plain => say!("did you mean `{plain}`?"),
             near if is_of_uncertainty(name) && !near.is_some_and(is_of_uncertainty) => say!(
                 "an uncertainty is stated at its input and is no quantity of the model; a figure that somebody states is a constant: [constant.{name}]"
             ),
@@ -171,6 +178,18 @@ impl Lowering<'_> {
 /// Whether a name is that of an uncertainty, `u_x` or `U_lab`, where nothing is so called.
 fn is_of_uncertainty(name: &str) -> bool {
     name.starts_with("U_") || name.starts_with("u_")
+}
+
+/// A name in the letters of another keyboard in plain ones: `Ｖ`.
+fn full_width(name: &str) -> Option<String> {
+    let plain = |c: char| match c {
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0),
+        c => Some(c),
+    };
+    name.chars()
+        .map(plain)
+        .collect::<Option<String>>()
+        .filter(|plain| plain != name)
 }
 
 /// The two names of `mg` for `m * g`.

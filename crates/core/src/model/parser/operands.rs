@@ -224,6 +224,10 @@ impl Parser<'_> {
             }
             Kind::End | Kind::Eof => {
                 let here = token.span.start..token.span.start;
+                let help = match self.text[token.span.clone()].starts_with(';') {
+                    true => say!("write `,` in place of `;` between arguments, or add `{closing}`"),
+                    false => say!("add `{closing}`"),
+                };
                 Err(fault(
                     faults::UNCLOSED,
                     place,
@@ -232,7 +236,7 @@ impl Parser<'_> {
                 .map(|f| {
                     f.label(say!("opened here"))
                         .related(here, say!("expected `{closing}` before this"))
-                        .help(say!("add `{closing}`"))
+                        .help(help)
                 }))
             }
             Kind::Sign(sign @ (")" | "]")) => Err(fault(

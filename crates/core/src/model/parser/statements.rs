@@ -1,6 +1,6 @@
 //! One statement: a definition, or a value.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use super::{MapBox, Parsed, Parser, fault};
 use crate::model::faults;
@@ -35,6 +35,13 @@ impl Parser<'_> {
                     ))
                 }));
             }
+            if let Kind::Sign("=") = first.kind {
+                return Err(self.unexpected(say!("a statement")).map(|f| {
+                    f.help(say!(
+                        "leave out the `=`, or write the name of what it gives in front of it"
+                    ))
+                }));
+            }
             Statement::Value(self.expression(0)?)
         };
         let token = self.peek();
@@ -49,8 +56,32 @@ impl Parser<'_> {
                 f.label(say!("no bracket to close"))
                     .help(say!("remove `{sign}`"))
             })),
-            _ => Err(self.unexpected(say!("an operator or the end of the statement"))),
+            _ => {
+                let help = self.decimal_comma();
+                let fault = self.unexpected(say!("an operator or the end of the statement"));
+                Err(match help {
+                    Some(help) => fault.map(|f| f.help(help)),
+                    None => fault,
+                })
+            }
         }
+    }
+
+    /// What to write for `1,05`, whose comma comes next.
+    fn decimal_comma(&self) -> Option<Said> {
+        let before = self.at.checked_sub(1).map(|at| self.kind(at));
+        let (Some(Kind::Number { text: whole, .. }), Kind::Number { text: decimals, .. }) =
+            (before, self.kind(self.at + 1))
+        else {
+            return None;
+        };
+        let is_thousands = decimals.len() == 3 && whole != "0";
+        self.is_sign(self.at, ",").then(|| match is_thousands {
+            true => {
+                say!("write {whole}{decimals}, or {whole}.{decimals} if the comma is a decimal one")
+            }
+            false => say!("write a decimal point: {whole}.{decimals}"),
+        })
     }
 
     fn right_side(&mut self) -> Parsed<Expr> {

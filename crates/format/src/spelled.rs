@@ -37,6 +37,35 @@ pub(crate) fn spelled(text: &str) -> Option<(String, String)> {
     (finite && is_unit && !as_it_is).then_some((number, unit))
 }
 
+/// A number whose decimal point is the prefix of its unit, as on components: `1.5` and `k` of `1k5`, with what stands behind it.
+pub(crate) fn prefix_for_point(text: &str) -> Option<(String, char, &str)> {
+    let text = text.trim();
+    let (whole, rest) = digits(text);
+    let prefix = rest.chars().next().filter(|c| "pnuµmkMGR".contains(*c))?;
+    let (decimals, behind) = digits(&rest[prefix.len_utf8()..]);
+    let is_number = !whole.is_empty() && !decimals.is_empty();
+    let is_end = behind.is_empty() || behind.starts_with(' ');
+    (is_number && is_end).then(|| (format!("{whole}.{decimals}"), prefix, behind.trim()))
+}
+
+/// The two numbers of a range, `4.9~5.1`, `4.9 to 5.1` or `1.0..1.2`, and the unit behind it.
+pub(crate) fn range(text: &str) -> Option<(String, String, String)> {
+    let narrow: String = text.trim().chars().map(narrow).collect();
+    let signs = ["~", "～", "…", "...", "..", " to ", "至", "到", "-"];
+    signs.iter().find_map(|sign| {
+        // The minus of the lower one does not part them.
+        let at = narrow.get(1..)?.find(sign)? + 1;
+        let (lower, upper) = (narrow[..at].trim(), narrow[at + sign.len()..].trim());
+        let of_number = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+        let end = upper.len() - upper.trim_start_matches(of_number).len();
+        let (upper, unit) = (upper[..end].trim(), upper[end..].trim());
+        let lower = lower.strip_suffix(unit).map_or(lower, str::trim_end);
+        let in_order = lower.parse::<f64>().ok()? < upper.parse::<f64>().ok()?;
+        let is_unit = !unit.contains(['±', '+', '*', ',', '(']);
+        (in_order && is_unit).then(|| (lower.to_owned(), upper.to_owned(), unit.to_owned()))
+    })
+}
+
 /// The digits and signs of another keyboard.
 fn narrow(c: char) -> char {
     match c {
@@ -55,7 +84,7 @@ fn mantissa(text: &str) -> (String, &str) {
     let (mut whole, mut rest) = digits(body);
     let mut joined = whole.to_owned();
     while whole.len() <= 3 && !whole.is_empty() {
-        let (group, behind) = digits(rest.strip_prefix([' ', '\'']).unwrap_or(""));
+        let (group, behind) = digits(rest.strip_prefix([' ', '\'', '_']).unwrap_or(""));
         if group.len() != 3 {
             break;
         }
@@ -118,10 +147,12 @@ fn power_of_ten(text: &str) -> Option<(String, &str)> {
         let rest = behind.trim_start_matches(|c| c == '⁻' || RAISED.contains(c));
         return Some((raised, rest));
     }
+    // `x10-4` has lost its sign of a power.
+    let behind = behind.trim_start();
     let behind = behind
-        .trim_start()
         .strip_prefix("**")
-        .or_else(|| behind.trim_start().strip_prefix('^'))?;
+        .or_else(|| behind.strip_prefix('^'))
+        .or_else(|| Some(behind).filter(|behind| behind.starts_with(['+', '-'])))?;
     let behind = behind.trim_start_matches(['{', '(']);
     let body = behind.strip_prefix(['+', '-']).unwrap_or(behind);
     let (exponent, rest) = digits(body);
@@ -130,9 +161,14 @@ fn power_of_ten(text: &str) -> Option<(String, &str)> {
     (!exponent.is_empty()).then(|| (format!("{sign}{exponent}"), closed))
 }
 
-/// The exponent of `e-4`, and what stands behind it.
+/// The exponent of `e-4`, ` E-4` and `D-4`, and what stands behind it.
 fn exponent(text: &str) -> Option<(String, &str)> {
-    let behind = text.strip_prefix(['e', 'E'])?;
+    let text = text.trim_start();
+    let behind = text.strip_prefix(['e', 'E']).or_else(|| {
+        // The day is a unit, `3 d`, and has no sign behind it.
+        let behind = text.strip_prefix(['d', 'D'])?;
+        behind.starts_with(['+', '-']).then_some(behind)
+    })?;
     let (exponent, rest) = digits(behind.strip_prefix(['+', '-']).unwrap_or(behind));
     let sign = if behind.starts_with('-') { "-" } else { "" };
     (!exponent.is_empty()).then(|| (format!("{sign}{exponent}"), rest))
@@ -196,11 +232,53 @@ mod tests {
             ("1 234.567 8 kg", "1234.5678", "kg"),
             ("1'000'000", "1000000", ""),
             ("0.0003;", "0.0003", ""),
+            ("1e−3 V", "1e-3", "V"),
+            ("1.0 E-3 V", "1.0e-3", "V"),
+            ("3D-4", "3e-4", ""),
+            ("3d+4 V", "3e4", "V"),
+            ("3x10-4 V", "3e-4", "V"),
+            ("1_000 V", "1000", "V"),
             ("11.5×10^-6/K", "11.5e-6", "1/K"),
             ("11.5x10^-6 1/K", "11.5e-6", "1/K"),
         ] {
             let found = spelled(text);
             assert_eq!(found, Some((number.to_owned(), unit.to_owned())), "{text}");
+        }
+    }
+
+    #[test]
+    fn ranges_and_prefixes_for_points_are_seen() {
+        for (text, lower, upper, unit) in [
+            ("4.9~5.1 V", "4.9", "5.1", "V"),
+            ("4.9 V ～ 5.1 V", "4.9", "5.1", "V"),
+            ("-4.9-5.1", "-4.9", "5.1", ""),
+            ("-5.1 – -4.9 mA", "-5.1", "-4.9", "mA"),
+            ("1.0..1.2", "1.0", "1.2", ""),
+            ("4.9 to 5.1 V", "4.9", "5.1", "V"),
+            ("4.9至5.1V", "4.9", "5.1", "V"),
+        ] {
+            let expected = [lower, upper, unit].map(str::to_owned).into();
+            assert_eq!(range(text), Some(expected), "{text}");
+        }
+        for text in [
+            "3 V",
+            "10-3",
+            "1e-3 V",
+            "-5 V",
+            "5 m^-1",
+            "2026-03-01",
+            "5 ± 1",
+            "",
+        ] {
+            assert_eq!(range(text), None, "{text}");
+        }
+        assert_eq!(prefix_for_point("1k5"), Some(("1.5".into(), 'k', "")));
+        assert_eq!(
+            prefix_for_point("4R7 ohm"),
+            Some(("4.7".into(), 'R', "ohm"))
+        );
+        for text in ["1 k", "1e5", "1k", "5 m3", "1m5x", "k5"] {
+            assert_eq!(prefix_for_point(text), None, "{text}");
         }
     }
 
@@ -257,6 +335,12 @@ mod tests {
             "1/3",
             "1,5",
             "5 ± 1",
+            "3 d",
+            "3 d^-1",
+            "3 eV",
+            "2 E",
+            "1e2.5",
+            "x10-4",
         ] {
             assert_eq!(spelled(text), None, "{text}");
         }

@@ -60,7 +60,45 @@ pub(super) fn without_sign(amount: &str) -> Said {
         Ok(_) => "",
         Err(_) => "\"",
     };
-    say!("leave out the ±, which the key says: {quotes}{amount}{quotes}")
+    say!(
+        "leave out the ± where the key says it, as in half_width = {quotes}{amount}{quotes}; a value has one sign"
+    )
+}
+
+/// What is written in place of a range.
+pub(super) fn of_range((lower, upper, unit): (String, String, String)) -> Said {
+    match unit.as_str() {
+        "" => say!("two limits are limits = [{lower}, {upper}]"),
+        unit => say!("two limits are limits = [\"{lower} {unit}\", \"{upper} {unit}\"]"),
+    }
+}
+
+/// What is written in place of a number whose decimal point is a prefix; `R` stands for no prefix.
+pub(super) fn of_prefix_for_point((number, prefix, unit): (String, char, &str)) -> Said {
+    let unit = match unit {
+        "" => "ohm",
+        unit => unit,
+    };
+    match prefix {
+        'R' => say!("write \"{number} {unit}\""),
+        prefix => say!("write \"{number} {prefix}{unit}\""),
+    }
+}
+
+/// Whether a number has an exponent with a decimal point: `1e2.5`.
+pub(super) fn has_fractional_exponent(text: &str) -> bool {
+    let parts = text.trim().split_once(['e', 'E']);
+    parts.is_some_and(|(mantissa, exponent)| {
+        let digits = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+        let number = &exponent[..exponent.len() - exponent.trim_start_matches(digits).len()];
+        let is_number = |text: &str| text.parse::<f64>().is_ok();
+        is_number(mantissa) && number.contains('.') && is_number(number)
+    })
+}
+
+/// What is said of an exponent with a decimal point.
+pub(super) fn of_fractional_exponent() -> Said {
+    say!("an exponent is a whole number, as in 3.2e2")
 }
 
 /// What is written in place of a value with ± and its uncertainty, which may stand in a bracket in front of their unit.
@@ -88,6 +126,13 @@ fn as_stated(text: &str, other: &str) -> String {
 /// may part thousands.
 pub(super) fn without_comma(number: &str, quotes: &str) -> Said {
     let number = &number.replace('，', ",");
+    // Points in front of the comma part thousands: `1.234,5`.
+    if let Some((thousands, decimals)) = number.split_once(',')
+        && thousands.contains('.')
+    {
+        let whole = thousands.replace('.', "");
+        return say!("write {quotes}{whole}.{decimals}{quotes}");
+    }
     let point = number.replacen(',', ".", 1);
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);
     let places = behind.bytes().take_while(u8::is_ascii_digit).count();

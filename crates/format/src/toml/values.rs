@@ -7,11 +7,12 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::numbers::{
-    of_concise, of_plus_minus, parted_by_plus_minus, quotient, without_comma, without_sign,
+    has_fractional_exponent, of_concise, of_fractional_exponent, of_plus_minus,
+    of_prefix_for_point, of_range, parted_by_plus_minus, quotient, without_comma, without_sign,
 };
 use super::strings::StringMap;
 use super::table::{FromToml, Raw, Reader};
-use crate::spelled::{sexagesimal, spelled};
+use crate::spelled::{prefix_for_point, range, sexagesimal, spelled};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
 
@@ -117,9 +118,15 @@ impl FromToml for f64 {
                 let help = spelled(text).map(|(number, _)| say!("write {number}"));
                 reader.wrong_type_with(value, say!("a number"), help)
             }
+            (None, DeValue::String(text)) if is_spelled_amount(text) => {
+                let help = spelled(text).map(|(number, unit)| {
+                    say!("a number stands here, in the unit of its quantity: write {number} if that unit is `{unit}`, and else the number converted to it")
+                });
+                reader.wrong_type_with(value, say!("a number"), help)
+            }
             (None, DeValue::String(text)) if split_amount(text).is_some() => {
                 let help = split_amount(text).map(|(number, unit)| {
-                    say!("write {number} alone: a number stands here, and its unit `{}` has a key of its own", unit_of(text, &unit))
+                    say!("a number stands here, in the unit of its quantity: write {number} if that unit is `{}`, and else the number converted to it", unit_of(text, &unit))
                 });
                 reader.wrong_type_with(value, say!("a number"), help)
             }
@@ -258,7 +265,9 @@ impl FromToml for Date {
         if Day::read(&text).is_some() {
             Some(Date(text))
         } else {
-            let help = day_first(&text).map(|day| say!("write {day}"));
+            let help = no_such_day(&text)
+                .or_else(|| day_first(&text).map(|day| say!("write {day}")))
+                .or_else(|| Some(say!("write the year, the month and the day: 2027-03-01")));
             reader.wrong_type_with(value, Self::expected(), help)
         }
     }
@@ -287,6 +296,22 @@ fn day_first(text: &str) -> Option<String> {
     };
     let day = format!("{year:04}-{month:02}-{day:02}");
     Day::read(&day).map(|_| day)
+}
+
+/// That a date has the form of one, but is none: `2026-02-30`.
+fn no_such_day(text: &str) -> Option<Said> {
+    let mut parts = text.split('-');
+    let parts = [parts.next()?, parts.next()?, parts.next()?];
+    let [year, month, day] = parts.map(|part| part.parse::<u16>().ok());
+    let (year, month, day) = (year?, month?, day?);
+    if parts.map(str::len) != [4, 2, 2] || !(1..=12).contains(&month) {
+        return None;
+    }
+    let first = |last: &u16| Day::read(&format!("{year:04}-{month:02}-{last:02}")).is_some();
+    let last = (28..=31).rev().find(first).filter(|last| day > *last)?;
+    Some(say!(
+        "this month has {last} days: write the day that is meant"
+    ))
 }
 
 /// A number in the unit of its surroundings, or with a unit of its own (`"25 µV"`).
@@ -370,8 +395,10 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
         || parted_by_plus_minus(rest).is_some()
         || is_arithmetic(rest)
         || goes_on_in_a_smaller_unit(rest)
-        || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))
-            && spelled(body).is_some()
+        || spelled(body).is_some()
+        || range(body).is_some()
+        || prefix_for_point(body).is_some()
+        || rest.starts_with('.')
         || divided.is_some_and(|rest| {
             rest.starts_with(|c: char| c.is_ascii_digit() || c == '√') || rest.starts_with("sqrt")
         });
@@ -387,6 +414,11 @@ fn is_arithmetic(rest: &str) -> bool {
 /// A number of another keyboard and nothing else: `1.0３`, of which `1.0` is no number of `３`.
 fn is_spelled_otherwise(text: &str) -> bool {
     spelled(text).is_some_and(|(_, unit)| unit.is_empty())
+}
+
+/// An amount whose number is written in another way: `1e−3 V`.
+fn is_spelled_amount(text: &str) -> bool {
+    spelled(text).is_some_and(|(_, unit)| !unit.is_empty())
 }
 
 /// An amount behind which stands the coverage factor of another key: `0.05 %` and `2` of `0.05 % (k=2)`.
@@ -450,6 +482,12 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
             "" => say!("write {number}"),
             unit => say!("write \"{number} {unit}\""),
         })
+    } else if let Some(ends) = range(text) {
+        fault.help(of_range(ends))
+    } else if let Some(parts) = prefix_for_point(text) {
+        fault.help(of_prefix_for_point(parts))
+    } else if has_fractional_exponent(text) {
+        fault.help(of_fractional_exponent())
     } else if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
     } else if has_comma(text) {

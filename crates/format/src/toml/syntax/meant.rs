@@ -2,15 +2,17 @@
 
 use std::ops::Range;
 
+use gumption_core::calendar::Day;
 use gumption_fault::libraries::of_toml;
 use gumption_fault::{Fault, Said, say};
 
 use super::places::{bare, calculation_at, line_of, word_at};
-use crate::spelled::spelled;
+use crate::spelled::{prefix_for_point, range, spelled};
 use crate::toml::faults::TOML_SYNTAX;
 use crate::toml::numbers::{
-    amount, concise, is_calculation, of_concise, of_plus_minus, parted_by_plus_minus, quoted,
-    quotient, several_numbers, without_comma, without_sign,
+    amount, concise, has_fractional_exponent, is_calculation, of_concise, of_fractional_exponent,
+    of_plus_minus, of_prefix_for_point, of_range, parted_by_plus_minus, quoted, quotient,
+    several_numbers, without_comma, without_sign,
 };
 
 /// Words that people try, and the key that they mean.
@@ -147,6 +149,20 @@ impl<'a> Stop<'a> {
             Some((value, rest)) => return number(of_two(), of_plus_minus(value, rest)),
             None => {}
         }
+        if let Some(day) = slashed_day(marked) {
+            let message = say!("`{marked}` is not how a date is written in TOML");
+            let fault = self.refused(message, say!("expected a date"));
+            return Some(fault.help(say!("write {day}")));
+        }
+        if let Some(ends) = range(marked) {
+            return number(spelling(), of_range(ends));
+        }
+        if has_fractional_exponent(marked) {
+            return number(spelling(), of_fractional_exponent());
+        }
+        if let Some(parts) = prefix_for_point(marked) {
+            return number(spelling(), of_prefix_for_point(parts));
+        }
         if is_calculation(marked) {
             let help = match quotient(marked) {
                 Some(result) => say!("write {result}; formulas stand in a `model`"),
@@ -206,6 +222,17 @@ impl<'a> Stop<'a> {
             let fault = self.refused(message, say!("expected small letters"));
             return Some(fault.help(say!("write {word}", word = lower)));
         }
+        let bare = lower.trim_start_matches(['+', '-']);
+        if ["infinity", "infinite", "∞"].contains(&bare) {
+            let message = say!("`{marked}` is not how it is written in TOML");
+            let infinite = if lower.starts_with('-') {
+                "-inf"
+            } else {
+                "inf"
+            };
+            let fault = self.refused(message, say!("expected a number"));
+            return Some(fault.help(say!("write {number}", number = infinite)));
+        }
         if self.says(NO_QUOTES) || self.is_word() {
             let message = say!("`{marked}` is no number, and a text needs quotes");
             let fault = self.refused(message, say!("expected a number or a text in quotes"));
@@ -235,7 +262,16 @@ impl<'a> Stop<'a> {
             .next()
             .unwrap_or_default()
             .trim();
-        let name = name.strip_prefix('[')?.strip_suffix(']')?;
+        let inside = name.strip_prefix('[')?;
+        if self.says("unclosed table") && !inside.contains(']') {
+            let start = line.start + self.text[line.clone()].find('[')?;
+            let message = say!("the header is not closed by `]`");
+            let fault = Fault::new(TOML_SYNTAX, start..start + name.len(), message);
+            let closing = if inside.starts_with('[') { "]]" } else { "]" };
+            let fault = fault.label(say!("expected `{closing}` at its end"));
+            return Some(fault.help(say!("write {name}{closing}", name = name)));
+        }
+        let name = inside.strip_suffix(']')?;
         if !self.says("unclosed table") || name.contains(['"', '\'', '[', ']']) {
             return None;
         }
@@ -346,6 +382,13 @@ impl<'a> Stop<'a> {
     }
 }
 
+/// Year, month and day with slashes between them, `2026/03/01`, as TOML writes a day.
+fn slashed_day(text: &str) -> Option<String> {
+    let day = text.trim().replace('/', "-");
+    let is_one = text.contains('/') && Day::read(&day).is_some() && day.len() == 10;
+    is_one.then_some(day)
+}
+
 /// How the parser says that a value is none that it knows, and that a member of a list follows another.
 const NO_QUOTES: &str = "string values must be quoted";
 const NO_COMMA: &str = "missing comma between array elements";
@@ -407,7 +450,7 @@ fn of_second_header(line: &str, before: &str) -> Said {
 }
 
 /// Whether a text begins with a header of a table, or with a key and its equals sign: no member of a list.
-fn begins_entry(text: &str) -> bool {
+pub(super) fn begins_entry(text: &str) -> bool {
     let of_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
     let inside = text.trim_start_matches('[');
     let behind = inside.trim_start_matches(of_name).trim_start();

@@ -1,5 +1,6 @@
 //! Where a file is no well-formed TOML: what its writer meant, in place of what the parser expected.
 
+mod brackets;
 mod meant;
 mod places;
 
@@ -52,7 +53,16 @@ pub fn syntax_faults(errors: &[toml::de::Error], text: &str, synonyms: &Synonyms
     }
     let mut faults: Vec<Fault> = Vec::new();
     let mut seen = Vec::new();
+    let is_deep = errors
+        .iter()
+        .any(|error| error.message().contains("recursion"));
+    let mut unclosed = brackets::unclosed(text).filter(|_| !is_deep);
     for error in errors {
+        let place = error.span().map_or(text.len(), |span| span.start);
+        if let Some((fault, _)) = unclosed.take_if(|(_, inside)| inside.start <= place) {
+            faults.push(fault);
+            break;
+        }
         if in_repeated_table(error, errors, text) {
             continue;
         }
@@ -185,6 +195,15 @@ mod tests {
                 "[input.标准 电压]",
                 "[input.标准_电压]",
             ),
+            ("dof = infinity", "infinity", "write inf"),
+            ("date = 2026/03/01", "2026/03/01", "write 2026-03-01"),
+            ("u = 1e2.5", "1e2.5", "whole number"),
+            ("u = 3D-4", "3D-4", "write 3e-4"),
+            ("value = 4.9~5.1", "4.9~5.1", "limits = [4.9, 5.1]"),
+            ("value = 1k5", "1k5", "\"1.5 kohm\""),
+            ("value = ±5 V", "±5 V", "half_width = \"5 V\""),
+            ("[input.R\nvalue = 1", "[input.R", "write [input.R]"),
+            ("c = { U = 1, k = 2\n[input.R]\nx = 1", "{", "write `}`"),
             ("[input.V_{s}]", "[input.V_{s}]", "[input.V_s]"),
         ] {
             let (found, mend) = first(text);

@@ -12,10 +12,20 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
     let distribution = Entry::named(table);
     distribution
         .and_then(|entry| (entry.in_place_of)(key))
+        .or_else(|| of_limits(key, known))
         .or_else(|| of_expanded(key, known))
         .or_else(|| of_this_table(key, table, known))
         .or_else(|| of_any_table(key, known))
         .or_else(|| beside(key, table))
+}
+
+/// The ends `a` and `b` of a distribution in formulas; `a` is its half-width there as well.
+fn of_limits(key: &str, known: &[&'static str]) -> Option<Said> {
+    let has_limits = known.contains(&"lower") && known.contains(&"half_width");
+    let is_end = ["a", "b", "min", "max", "low", "high", "left", "right"].contains(&key);
+    (has_limits && is_end).then(|| {
+        say!("the ends are lower = … and upper = …; the half of their distance is half_width = …")
+    })
 }
 
 /// `U` must not be taken for a misspelt `u`: they differ by the coverage factor.

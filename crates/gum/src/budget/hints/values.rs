@@ -106,6 +106,16 @@ pub fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         ("[fit.NAME.data]", DeValue::Array(_)) => Some(say!(
             "a column of data is a table, as it may have a unit and an uncertainty: {{ values = […] }}"
         )),
+        ("[input]", DeValue::Array(list))
+            if matches!(
+                list.first().map(|element| element.get_ref()),
+                Some(DeValue::Table(_))
+            ) =>
+        {
+            Some(say!(
+                "single brackets, and its name behind a dot: [input.NAME] is the header of each"
+            ))
+        }
         ("[input]", DeValue::Array(_)) => Some(say!("readings are {{ readings = […] }}")),
         ("[input]", DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => Some(say!(
             "an input has a value and a reason for doubt: {{ value = …, u = … }}; what is exactly known stands below [constant]"

@@ -122,7 +122,8 @@ fn without_left_side(fit: &Scope<'_>, text: &Stated<String>, outline: &Outline) 
     let place = text.span.clone();
     // `ln(y) = …` reads as the definition of a function.
     let last = outline.printed.lines().last().unwrap_or_default();
-    if let Some((before, _)) = last.split_once(" = ") {
+    let defined = last.split_once(" = ");
+    if let Some((before, _)) = defined.filter(|(before, _)| !before.is_empty()) {
         let message = say!("`{before}` cannot be defined");
         return left_side(Fault::new(LEFT_SIDE, place, message));
     }

@@ -110,14 +110,14 @@ OUTLIER_TEST = "B0220", "a test for outliers cannot say anything", "离群值检
 standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
 and Dixon.";
 
+TWO_TURNS = "B0225", "readings of a direction are written on two turns", "方向读数跨越整圈的起点",
+"359.8° and 0.1° are 0.3° apart, and their arithmetic mean of 180° points the other way. Readings of one direction, all \
+within half a turn of one another, are written on one turn: -0.2 in place of 359.8, or 360.1 in place of 0.1.";
+
 COVERAGE_FACTOR = "B0226", "a number is no coverage factor", "该数值不可能是包含因子",
 "Coverage factors are mostly 2, or 1.65 to 3; a t distribution of few degrees of freedom has larger ones, at most 14 for \
 95.45 %. What is between 0.68 and 1, or between 50 and 100, is a coverage probability: `p = 0.95` in a certificate, \
 `coverage_probability = 0.95` in the conventions.";
-
-TWO_TURNS = "B0225", "readings of a direction are written on two turns", "方向读数跨越整圈的起点",
-"359.8° and 0.1° are 0.3° apart, and their arithmetic mean of 180° points the other way. Readings of one direction, all \
-within half a turn of one another, are written on one turn: -0.2 in place of 359.8, or 360.1 in place of 0.1.";
 
 UNKNOWN_NAME = "B0301", "a name is not known", "所引用的名称未知",
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have.";

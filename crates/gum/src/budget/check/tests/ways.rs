@@ -112,6 +112,19 @@ fn certificates_with_k_or_p() {
         faults(&one("value = 1\ncertificate = { U = 0.4, p = 95 }"))[0].0,
         "B0204"
     );
+    for (certificate, dof) in [
+        ("k = 12.71", ""),
+        ("k = 63.66", ", dof = 1"),
+        ("k = 0.6745", ""),
+    ] {
+        component(&format!(
+            "value = 1\ncertificate = {{ U = 0.4, {certificate}{dof} }}"
+        ));
+    }
+    for k in [0.95, 20.0, 95.0, 99.73] {
+        let text = one(&format!("value = 1\ncertificate = {{ U = 0.4, k = {k} }}"));
+        assert_eq!(faults(&text)[0].0, "B0226", "{k}");
+    }
 }
 
 #[test]

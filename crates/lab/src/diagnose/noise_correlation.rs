@@ -133,7 +133,8 @@ pub(super) struct Courses {
 pub(super) fn laws(observations: usize) -> usize {
     let in_common = match observations > MOST_IN_COMMON {
         true => 0,
-        false => SHARES.len(),
+        // Of the outputs that go together, and of all.
+        false => 2 * SHARES.len(),
     };
     let remembered = match observations > MOST_COMPARED {
         true => 0,

@@ -30,12 +30,18 @@ pub struct Together {
 /// Probability from which on it is told, and looked for.
 const TOLD: f64 = 0.01;
 
+impl Together {
+    /// Whether they go together beyond chance.
+    fn is_clear(&self) -> bool {
+        self.p < TOLD
+    }
+}
+
 /// The two outputs whose residuals, over the standard uncertainties of the observations, go together most, where they do beyond
 /// chance.
 pub(super) fn together(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<Together> {
-    pairs(design, fit, u)
-        .into_iter()
-        .min_by(|a, b| a.p.total_cmp(&b.p))
+    let clear = pairs(design, fit, u).into_iter().filter(Together::is_clear);
+    clear.min_by(|a, b| a.p.total_cmp(&b.p))
 }
 
 /// What outputs may have in common in each row, where their residuals go together beyond chance.
@@ -48,12 +54,15 @@ pub(super) fn laws(
     if outputs * each > MOST_IN_COMMON {
         return Vec::new();
     }
-    let pairs = pairs(design, fit, u);
-    if pairs.is_empty() {
+    let all = pairs(design, fit, u);
+    let clear: Vec<Together> = all.iter().copied().filter(Together::is_clear).collect();
+    if clear.is_empty() {
         return Vec::new();
     }
-    let signs = signs(pairs, outputs);
-    let law = |share: f64| {
+    // An effect in one of them may hide what it has in common with the others.
+    let mut kinds = vec![signs(clear, outputs), signs(all, outputs)];
+    kinds.dedup();
+    let law = |(signs, share): (&DMatrix<f64>, f64)| {
         let element = |a: usize, b: usize| match a == b {
             true => 1.0,
             false if a % each == b % each => share * signs[(a / each, b / each)],
@@ -64,10 +73,11 @@ pub(super) fn laws(
         let memory = Memory::InCommon { share };
         (memory, Arc::new(Correlation::new(matrix)))
     };
-    SHARES.map(law).into()
+    let each_share = |signs| SHARES.map(move |share| (signs, share));
+    kinds.iter().flat_map(each_share).map(law).collect()
 }
 
-/// All pairs of outputs whose residuals go together beyond chance.
+/// All pairs of outputs.
 fn pairs(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Vec<Together> {
     let (outputs, each) = (design.case.responses.len(), design.blocks.len());
     let left = fit.residuals.component_div(u);
@@ -79,7 +89,7 @@ fn pairs(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Vec<Together> {
         let correlation = correlation(&of(outputs[0]), &of(outputs[1]))?;
         let t = correlation.abs() * (dof / (1.0 - correlation * correlation)).sqrt();
         let p = 2.0 * count * student_t_sf(t, dof);
-        (dof >= 1.0 && p < TOLD).then_some(Together {
+        (dof >= 1.0).then_some(Together {
             outputs,
             correlation,
             p,

@@ -139,7 +139,7 @@ static SPELLINGS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
             // `ohm` stands for `Ohm` as well.
             let is_first = |at: usize| {
                 let alike = |other: &&str| other.to_lowercase() == unit.aliases[at].to_lowercase();
-                !unit.aliases[..at].iter().any(|other| alike(other))
+                !unit.aliases[..at].iter().any(alike)
             };
             let aliases = (0..unit.aliases.len()).filter(move |at| is_first(*at));
             std::iter::once(&unit.symbol).chain(aliases.map(|at| &unit.aliases[at]))

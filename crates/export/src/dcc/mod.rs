@@ -37,12 +37,13 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
     if certificate.results.is_empty() {
         return Err(Unfit(say!("nothing was measured that could be certified")));
     }
+    let administration = administration.clone().in_languages(&certificate.languages);
     let root = element("dcc:digitalCalibrationCertificate")
         .attribute("xmlns:dcc", "https://ptb.de/dcc")
         .attribute("xmlns:si", "https://ptb.de/si")
         .attribute("schemaVersion", VERSION)
-        .with(administration::element(certificate, administration))
-        .with(results::element(certificate, administration));
+        .with(administration::element(certificate, &administration))
+        .with(results::element(certificate, &administration));
     root.document().map_err(|error| {
         let error = error.to_string();
         Unfit(say!("the certificate cannot be put together: {error}"))

@@ -18,7 +18,7 @@ pub fn certified(
     let Some(certificate) = document.certificate.as_mut() else {
         return document;
     };
-    certificate.administration = Some(given.clone().in_languages(&certificate.languages));
+    certificate.administration = Some(given.clone());
     certificate.attachments = attachments;
     let doubts = doubts(certificate, given);
     let head = fields(given, &document);

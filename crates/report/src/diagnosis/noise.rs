@@ -172,7 +172,7 @@ fn memory(case: &Case, claimed: &Claimed, l: Language) -> String {
         Memory::InCommon { share } => {
             let outputs = correlated.outputs_in_common(case.responses.len());
             let names = outputs.iter().map(|at| case.responses[*at].name.as_str());
-            let (share, names) = (part(share), names.collect::<Vec<_>>().join(", "));
+            let (share, names) = (part(share), names.collect::<Vec<_>>().join(l.list_comma()));
             say!("; errors of {names} in the same row go together: about {share} % of the variance is in common").in_language(l)
         }
     }

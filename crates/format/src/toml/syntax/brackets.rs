@@ -40,8 +40,10 @@ pub(super) fn unclosed(text: &str) -> Option<(Fault, Range<usize>)> {
 fn first_unclosed(text: &str) -> Option<Unclosed> {
     let mut open: Vec<(char, usize)> = Vec::new();
     let (mut at, mut before, mut suspect) = (0, ' ', None);
+    let mut is_indent = true;
     while let Some(c) = text[at..].chars().next() {
-        let begins_line = text[..at].trim_end_matches([' ', '\t']).ends_with('\n') || at == 0;
+        let begins_line = is_indent;
+        is_indent = c == '\n' || is_indent && [' ', '\t'].contains(&c);
         if let Some((bracket, opened)) = open.last().copied()
             && begins_line
             && begins_entry(&text[at..])

@@ -7,16 +7,17 @@ use gumption_format::toml::Stated;
 
 /// The largest probability that results are stated with.
 const LARGEST_PROBABILITY: f64 = 0.9973;
-/// That of one degree of freedom and 95.45 %, the largest that is stated without degrees of freedom.
-const LARGEST: f64 = 13.97;
+/// That of most certificates: of one degree of freedom its factor, 13.97, is the largest that is stated without degrees of freedom.
+const USUAL_PROBABILITY: f64 = 0.9545;
 /// A factor below one may be that of the probable error, 0.6745.
 const SMALLEST_PROBABILITY: f64 = 0.68;
-/// Printed factors are rounded.
-const ROUNDED: f64 = 1.03;
+/// Factors are printed to two digits at least: half a unit of the second one is a twentieth of the number at most.
+const ROUNDED: f64 = 1.05;
 
 /// What is wrong with a coverage factor that no distribution has; `word` is the key that states a probability.
 pub(super) fn no_factor(k: &Stated<f64>, dof: f64, word: &str) -> Option<Fault> {
-    let largest = student_t_two_sided_quantile(LARGEST_PROBABILITY, dof).max(LARGEST);
+    let unstated = student_t_two_sided_quantile(USUAL_PROBABILITY, 1.0);
+    let largest = student_t_two_sided_quantile(LARGEST_PROBABILITY, dof).max(unstated);
     let is_fraction = (SMALLEST_PROBABILITY..1.0).contains(&k.value);
     if !is_fraction && k.value <= ROUNDED * largest {
         return None;

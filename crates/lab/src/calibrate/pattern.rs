@@ -125,22 +125,13 @@ impl Residuals<'_> {
 
     /// The sum of squares that stated errors and the digits of the readings may make, systematic as they may be.
     fn harmless(&self) -> f64 {
-        let step = self.step();
+        let step = self.stack.step(self.rows);
         let limit = normal_two_sided_quantile(1.0 - RARE);
         let stated = |row: &usize| self.allowed[*row] * limit * limit;
         let read = (step / 2.0) * (step / 2.0);
         let rows = self.rows.iter();
         rows.map(|row| (stated(row) + read) / (self.u[*row] * self.u[*row]))
             .sum()
-    }
-
-    /// The least difference of two readings: not less than the resolution.
-    fn step(&self) -> f64 {
-        let mut observed: Vec<f64> = self.rows.iter().map(|r| self.stack.observed[*r]).collect();
-        observed.sort_by(f64::total_cmp);
-        let steps = observed.windows(2).map(|pair| pair[1] - pair[0]);
-        let least = steps.filter(|step| *step > 0.0).reduce(f64::min);
-        least.unwrap_or(0.0)
     }
 
     /// The sum of squares of all residuals.
@@ -279,13 +270,5 @@ impl Residuals<'_> {
         let beyond = follows - self.harmless();
         (dof >= 1.0 && others > 0.0 && beyond > 0.0)
             .then(|| f_sf(beyond / coefficients / (others / dof), coefficients, dof))
-    }
-}
-
-impl Stack<'_> {
-    /// The rows of a response.
-    fn rows_of(&self, response: usize) -> Vec<usize> {
-        let of = |row: &usize| matches!(self.rows[*row], Row::Reading { response: own, .. } if own == response);
-        (0..self.rows.len()).filter(of).collect()
     }
 }

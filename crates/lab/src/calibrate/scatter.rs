@@ -265,9 +265,7 @@ impl Scatters {
         let explained = sum_of(&parts, stack.rows.len());
         let mut responses = Vec::new();
         for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
-            let rows: Vec<usize> = (0..stack.rows.len())
-                .filter(|row| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response))
-                .collect();
+            let rows = stack.rows_of(response);
             let free = |row: usize| {
                 let gain = gain.by_observed.column(row);
                 1.0 - jacobian.row(row).transpose().dot(&gain.rows(0, parameters))
@@ -363,8 +361,7 @@ impl Scatters {
 
     fn of_residuals(&self, stack: &Stack<'_>, gain: &Gain, u: &[f64]) -> Vec<Cause> {
         let cause = |(response, scatter): (usize, &ResponseScatter)| {
-            let own = |row: &usize| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response);
-            let rows: Vec<usize> = (0..stack.rows.len()).filter(own).collect();
+            let rows = stack.rows_of(response);
             let mut effects = gain.by_observed.select_columns(&rows);
             for (mut effect, row) in effects.column_iter_mut().zip(&rows) {
                 effect *= scatter.own * (u[*row] / scatter.unit);

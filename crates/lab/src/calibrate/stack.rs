@@ -144,6 +144,21 @@ impl<'e> Stack<'e> {
         self.rows.iter().filter(reading).count()
     }
 
+    /// The rows that are readings of a response.
+    pub fn rows_of(&self, response: usize) -> Vec<usize> {
+        let of = |row: &usize| matches!(self.rows[*row], Row::Reading { response: own, .. } if own == response);
+        (0..self.rows.len()).filter(of).collect()
+    }
+
+    /// The least difference of two readings in some rows: not less than the resolution. Zero where all are the same.
+    pub fn step(&self, rows: &[usize]) -> f64 {
+        let mut observed: Vec<f64> = rows.iter().map(|row| self.observed[*row]).collect();
+        observed.sort_by(f64::total_cmp);
+        let steps = observed.windows(2).map(|pair| pair[1] - pair[0]);
+        let least = steps.filter(|step| *step > 0.0).reduce(f64::min);
+        least.unwrap_or(0.0)
+    }
+
     /// The symbols that an error acts on.
     pub fn doubted(&self) -> &[usize] {
         &self.doubted

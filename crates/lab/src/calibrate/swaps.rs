@@ -8,19 +8,17 @@ use super::scatter::Scatters;
 use super::stack::{Row, Stack};
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
+use gumption_core::special::ln_gamma;
 
-/// Larger experiments are not searched: their pairs are too many.
+/// Larger experiments are not searched: their pairs take too much time.
 const MOST_POINTS: usize = 100;
 
-/// By this factor the sum of squares must fall when the readings of two points change places. Noise does
-/// not do that where the residuals have some degrees of freedom.
-const FACTOR: f64 = 100.0;
+/// The probability that noise makes any of the exchanges bring the residuals down as far as the one that is told.
+const RARE: f64 = 1e-3;
 
-/// Exchanges that leave less than so many times the least sum of squares are as good as the best.
-const AS_GOOD: f64 = 10.0;
-
-/// Fewer degrees of freedom tell nothing.
-const LEAST_DOF: f64 = 2.0;
+/// The probability with which the best exchange leaves that much less than another one that is the true one, from which on the
+/// other one is as good.
+const AS_GOOD: f64 = 0.05;
 
 /// Less than this part of a sum of squares is rounding.
 const ROUNDING: f64 = 1e-20;
@@ -34,15 +32,13 @@ pub(super) fn swapped(
     scatters: &Scatters,
 ) -> Vec<[Words; 2]> {
     let points = stack.campaign.points.len();
-    let dof: f64 = scatters.responses.iter().map(|one| one.dof).sum();
-    if points > MOST_POINTS || dof < LEAST_DOF {
+    if points > MOST_POINTS {
         return Vec::new();
     }
     let ones = vec![1.0; stack.rows.len()];
     let jacobian = stack.jacobian(&solution.parameters, &ones);
     let parameters = solution.parameters.len();
     let projector = &jacobian * gain.by_observed.rows(0, parameters);
-    let mean_dof = dof / scatters.responses.len() as f64;
     let observed = squares(stack, &stack.observed);
     let mut before = squares(stack, &solution.residuals);
     for (before, observed) in before.iter_mut().zip(observed) {
@@ -51,21 +47,25 @@ pub(super) fn swapped(
             *before = 0.0;
         }
     }
-    let mut found: Vec<([Words; 2], f64)> = Vec::new();
-    for exchange in exchanges(stack.campaign) {
+    let mut found: Vec<([Words; 2], Vec<f64>)> = Vec::new();
+    let exchanges = exchanges(stack.campaign);
+    let rare = RARE / exchanges.len() as f64;
+    for exchange in exchanges {
         let Some(after) = exchanged(stack, &solution.residuals, &projector, &exchange.pairs) else {
             continue;
         };
-        let fall = fall(&before, &squares(stack, &after), scatters);
-        if fall > mean_dof * libm::log(FACTOR) {
-            found.push((exchange.names, fall));
+        let after = squares(stack, &after);
+        if by_chance(&before, &after, scatters) < rare {
+            found.push((exchange.names, after));
         }
     }
-    found.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let best = found.first().map_or(0.0, |(_, fall)| *fall);
-    let as_good = found
-        .into_iter()
-        .take_while(|(_, fall)| *fall > best - mean_dof * libm::log(AS_GOOD));
+    let fall = |after: &[f64]| fall(&before, after, scatters);
+    found.sort_by(|a, b| fall(&b.1).total_cmp(&fall(&a.1)));
+    let best = found.first().map(|(_, after)| after.clone());
+    let as_good = found.into_iter().take_while(|(_, after)| {
+        let best = best.as_ref();
+        best.is_some_and(|best| by_chance(after, best, scatters) > AS_GOOD)
+    });
     as_good.map(|(names, _)| names).collect()
 }
 
@@ -83,13 +83,41 @@ fn squares(stack: &Stack<'_>, residuals: &[f64]) -> Vec<f64> {
 /// How far the sums of squares fall: Σ ν·ln(before/after), twice the logarithm of a ratio of likelihoods in
 /// which every response has a scatter of its own, so that those that see nothing of an exchange do not hide it.
 fn fall(before: &[f64], after: &[f64], scatters: &Scatters) -> f64 {
+    factors(before, after, scatters)
+        .map(|(dof, factor)| dof * libm::log(factor))
+        .sum()
+}
+
+/// The degrees of freedom of each response, and the factor by which its sum of squares falls.
+fn factors<'a>(
+    before: &'a [f64],
+    after: &'a [f64],
+    scatters: &'a Scatters,
+) -> impl Iterator<Item = (f64, f64)> + 'a {
     let responses = scatters.responses.iter().zip(before).zip(after);
     responses
         .filter(|((_, before), _)| **before > 0.0)
-        .map(|((scatter, before), after)| {
-            scatter.dof * libm::log(before / after.max(ROUNDING * before))
-        })
-        .sum()
+        .map(|((scatter, before), after)| (scatter.dof, before / after.max(ROUNDING * before)))
+}
+
+/// The largest probability with which noise makes the sum of squares of each response fall as far by an exchange that did not happen.
+///
+/// The residuals r of a response are a vector of ν dimensions that noise turns anywhere; the exchange adds m to it. It falls
+/// by the factor F where |r + m|² < |r|²/F: in a ball of radius |m|√F/(F − 1). The volume of this ball times the largest density of normal
+/// errors in it is, for that |m| for which it is the most, (ν/2e)^(ν/2)/Γ(ν/2 + 1) (√F − 1)^(−ν).
+fn by_chance(before: &[f64], after: &[f64], scatters: &Scatters) -> f64 {
+    let of_response = |(dof, factor): (f64, f64)| {
+        let (half, beyond) = (0.5 * dof, factor.sqrt() - 1.0);
+        match half > 0.0 && beyond > 0.0 {
+            true => {
+                let densest = half * (libm::log(half) - 1.0) - ln_gamma(half + 1.0);
+                (densest - dof * libm::log(beyond)).min(0.0)
+            }
+            false => 0.0,
+        }
+    };
+    let all: f64 = factors(before, after, scatters).map(of_response).sum();
+    libm::exp(all)
 }
 
 /// Points that may have changed places.

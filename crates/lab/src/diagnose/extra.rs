@@ -66,9 +66,7 @@ pub fn extras(case: &Case) -> Vec<Extra> {
 
 /// Whether a column holds angles, by its role or its unit.
 fn is_angle(column: &Column) -> bool {
-    let symbol = &column.unit.symbol;
-    let units = ["°", "deg", "rad"];
-    column.role == Role::Angle || units.iter().any(|unit| symbol.ends_with(unit))
+    column.role == Role::Angle || column.unit.full_turn().is_some()
 }
 
 /// Different values in ascending order.

@@ -3,10 +3,10 @@
 
 use super::case::{Blocks, Case, Column, Data, NoiseClaim, Observed, Role};
 use super::noise::Claimed;
-use super::resolution::u_of_step;
 use super::simulate::{heading, recorded};
 use super::{Diagnosis, Origin};
 use crate::experiment::written::own_units;
+use crate::recording::resolution::u_of_step;
 use crate::recording::{Heading, text_of};
 use gumption_core::model::{Role as SymbolRole, Symbol};
 use gumption_core::quantity::Unit;

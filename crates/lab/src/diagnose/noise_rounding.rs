@@ -13,7 +13,7 @@ use super::design::Design;
 use super::evidence::Correlation;
 use super::fit::Fit;
 use super::noise_correlation::{Correlated, Memory};
-use super::resolution::{resolution, u_of_step};
+use crate::recording::resolution::{resolution, u_of_step};
 use gumption_core::special::{
     chi_squared_cdf, chi_squared_sf, chi_squared_upper_quantile, normal_upper_quantile,
 };

@@ -12,6 +12,7 @@ use super::noise::Claimed;
 use super::{chance, confirm};
 use super::{settled, size};
 use crate::recording::Heading;
+use gumption_core::least_squares::lower_factor;
 use gumption_core::quantity::UnitTable;
 use gumption_core::special::normal_two_sided_quantile;
 
@@ -149,10 +150,8 @@ fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
     let independent =
         streams.flat_map(|response| chance::numbers(seed, response, case.rows, normals));
     let independent = DVector::from_vec(independent.collect());
-    let factor = claimed.correlated.as_ref();
-    let factor = factor.and_then(|correlated| correlated.correlation.matrix().clone().cholesky());
-    let errors = match factor {
-        Some(factor) => factor.l() * independent,
+    let errors = match &claimed.correlated {
+        Some(correlated) => lower_factor(correlated.correlation.matrix()) * independent,
         None => independent,
     };
     errors.component_mul(&claimed.u)

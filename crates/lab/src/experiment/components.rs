@@ -9,6 +9,7 @@ use super::known::Known;
 use super::source::entries;
 use super::tables::ScopeWord;
 use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::least_squares::lower_factor;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -193,28 +194,6 @@ fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<D
     };
     let parts = (0..members.len()).map(part);
     Some(parts.filter(|part| !part.acts.is_empty()).collect())
-}
-
-/// Cholesky factor of a matrix that may be singular.
-pub(crate) fn lower_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = matrix.nrows();
-    let mut factor = DMatrix::<f64>::zeros(n, n);
-    for column in 0..n {
-        let own: f64 = (0..column).map(|k| factor[(column, k)].powi(2)).sum();
-        let rest = matrix[(column, column)] - own;
-        if rest <= 1e-12 * matrix[(column, column)] {
-            continue;
-        }
-        let pivot = rest.sqrt();
-        factor[(column, column)] = pivot;
-        for row in column + 1..n {
-            let sum: f64 = (0..column)
-                .map(|k| factor[(row, k)] * factor[(column, k)])
-                .sum();
-            factor[(row, column)] = (matrix[(row, column)] - sum) / pivot;
-        }
-    }
-    factor
 }
 
 fn scope_of_source(checker: &Checker<'_>, name: &str) -> Scope {

@@ -6,6 +6,8 @@
 //! | `checks` | missing values, times that go backwards, saturation, labels … |
 //! | `words` | what is said of that, in both languages |
 //! | `segment` | dwells: stretches that belong together; settling |
+//! | `resolution` | the steps in which readings come |
+//! | `values` | the different values of a column, and as they are written |
 //! | `average` | mean of a dwell with its standard uncertainty; drift |
 //! | `allan` | Allan deviation, overlapping, with confidence intervals |
 //! | `power_law` | covariances of Allan variances for noise of a power law |
@@ -50,9 +52,11 @@ mod average;
 mod checks;
 mod noise;
 mod power_law;
+pub(crate) mod resolution;
 mod segment;
 #[cfg(test)]
 mod tests;
+pub(crate) mod values;
 mod words;
 
 pub use allan::{Allan, AllanPoint, Unsuitable, regular_interval};

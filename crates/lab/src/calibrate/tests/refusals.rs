@@ -1,5 +1,9 @@
 //! What is wrong is said, and where.
 
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rand_distr::{Distribution, Normal};
+
 use super::super::{Trouble, calibrate};
 use super::{campaign, rejected};
 use crate::experiment::{Purpose, Words};
@@ -331,6 +335,37 @@ fn averages_at_a_limit_are_told() {
             .limits,
         []
     );
+}
+
+/// A display of whole digits shows points within a digit of each other alike, at the ends of the range as well.
+#[test]
+fn digits_are_no_limit() {
+    let csv = "omega [deg/s],U [mV]\n0,0\n0.4,0\n1,1\n2,2\n3,3\n4,4\n5,5\n6,6\n7,7\n8,8\n9,9\n9.6,10\n10,10\n";
+    let found = calibrate(&campaign(RATE, csv)).expect("coefficients");
+    assert_eq!(found.limits, []);
+    let stuck =
+        "omega [deg/s],U [mV]\n0,0\n1.1,1\n2,2\n3,3\n3.9,4\n5,5\n6,6\n7,7\n8,7\n9,7\n10,7\n";
+    let found = calibrate(&campaign(RATE, stuck)).expect("coefficients");
+    assert_eq!((found.limits.len(), found.limits[0].value), (1, 7.0));
+}
+
+/// Four points, two coefficients: two degrees of freedom, in which noise alone often leaves another order a hundredth of the squares.
+/// At the level of 0.001 more than 3 of 400 have a probability of 0.0008.
+#[test]
+fn noise_is_no_exchange() {
+    let mut random = StdRng::seed_from_u64(4);
+    let noise = Normal::new(0.0, 1.0).expect("a spread");
+    let is_accused = |_: &i32| {
+        let line = |x: i32| {
+            let reading = f64::from(x) + noise.sample(&mut random);
+            format!("{x},{reading}\n")
+        };
+        let rows: String = (0..4).map(line).collect();
+        let csv = format!("omega [deg/s],U [mV]\n{rows}");
+        let found = calibrate(&campaign(RATE, &csv)).expect("coefficients");
+        !found.swapped.is_empty()
+    };
+    assert!((0..400).filter(is_accused).count() <= 3);
 }
 
 /// Six positions, each twice, half a turn apart: the averages do not see what the turn cancels.

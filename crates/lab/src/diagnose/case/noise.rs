@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use super::declared::Declared;
 use super::{Column, NoiseClaim, Observed, Response};
-use crate::diagnose::resolution::u_of_step;
 use crate::experiment::at_rest::{Headed, hours};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTable};
+use crate::recording::resolution::u_of_step;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;

@@ -6,7 +6,7 @@ use super::modifiers::{figure, five_digits, levels_of, map, range};
 use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{Observed, Role};
-use crate::diagnose::resolution::{Steps, steps};
+use crate::recording::resolution::{Steps, steps};
 
 /// Cells of the outputs that may be those of converters, and of stimuli that are their codes.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {

@@ -284,14 +284,7 @@ impl<'f> FittedModel<'f> {
 
     /// Whether a column is stated in a unit of angle.
     pub fn is_angle(&self, column: usize) -> bool {
-        let unit = &self.case().columns[column].unit;
-        let same = |text: &str| {
-            let other = UnitTable::default().parse(text);
-            other.is_ok_and(|other| other.factor == unit.factor && other.symbol == unit.symbol)
-        };
-        ["rad", "mrad", "µrad", "°", "deg", "arcmin", "arcsec"]
-            .into_iter()
-            .any(same)
+        self.case().columns[column].unit.full_turn().is_some()
     }
 
     /// The unit of time as text; `row` where no time was recorded.

@@ -471,28 +471,35 @@ fn missing(fitted: &FittedModel<'_>, column: usize, response: usize, knees: &[Kn
 }
 
 /// Where a plateau begins in an order of the rows that ends with it, between the row before and the end of what is given: its first
-/// rows may still be on the way to it, as far as readings may move. Nothing if there is none.
+/// rows may still be on the way to it, as far as readings may move. Nothing if there is none. In one pass from the end, since a
+/// recording may have a million rows.
 fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Option<Range<usize>> {
     /// Rows and values that a plateau has at least.
     const ROWS: usize = 4;
     const VALUES: usize = 3;
     /// The readings move by less than this part of what the model says.
     const STILL: f64 = 0.1;
-    let is_plateau = |first: &usize| {
-        let rows = &order[*first..];
-        let values = levels_of(&rows.iter().map(|row| x[*row]).collect::<Vec<f64>>());
-        let of = |y: &[f64]| -> Vec<f64> { rows.iter().map(|row| y[*row]).collect() };
-        let (seen, expected) = (range(&of(observed)), range(&of(signal)));
-        // Readings that are still to be recorded have no range.
-        let still = 0.0..STILL * (expected.1 - expected.0);
-        values.len() >= VALUES && still.contains(&(seen.1 - seen.0))
-    };
     // The longest; the line before it needs rows of its own.
     let shortest = order.len().checked_sub(ROWS)?;
-    let first = (order.len() / 4 + 1..=shortest).find(is_plateau)?;
+    let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+    let wider = |(least, most): (f64, f64), y: f64| (least.min(y), most.max(y));
+    let (mut seen, mut expected, mut values) = (nothing, nothing, 0);
+    let mut longest = None;
+    for first in (order.len() / 4 + 1..order.len()).rev() {
+        let row = order[first];
+        (seen, expected) = (wider(seen, observed[row]), wider(expected, signal[row]));
+        // The order is that of the values.
+        values += usize::from(order.get(first + 1).is_none_or(|next| x[*next] != x[row]));
+        // Readings that are still to be recorded have no range.
+        let still = 0.0..STILL * (expected.1 - expected.0);
+        if first <= shortest && values >= VALUES && still.contains(&(seen.1 - seen.0)) {
+            longest = Some(first);
+        }
+    }
+    let first = longest?;
     let way = |row: &usize| (signal[*row] - signal[order[first]]).abs();
-    let longest = STILL * order[first..].iter().map(way).fold(0.0, f64::max);
-    let is_on = |place: &usize| way(&order[*place]) > longest;
+    let way_of_readings = STILL * order[first..].iter().map(way).fold(0.0, f64::max);
+    let is_on = |place: &usize| way(&order[*place]) > way_of_readings;
     Some(first..(first..order.len()).find(is_on)?)
 }
 

@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::ops::Range;
 
+pub use crate::recording::values::{largest, levels_of, rounded};
+
 /// Less the middle.
 pub fn centred(x: &[f64]) -> Vec<f64> {
     let middle = middle(x);
@@ -13,27 +15,6 @@ pub fn centred(x: &[f64]) -> Vec<f64> {
 pub fn middle(x: &[f64]) -> f64 {
     let (least, most) = range(x);
     rounded(mean(x), 1e-4 * (most - least))
-}
-
-/// A number rounded to a decimal place not coarser than a step; as it is where there is no step.
-pub fn rounded(x: f64, step: f64) -> f64 {
-    /// A double has no more.
-    const MOST: i32 = 15;
-    let place = libm::floor(libm::log10(step));
-    if !(step > 0.0 && place.is_finite()) {
-        return x;
-    }
-    let decimals = (-place as i32).clamp(-MOST, MOST);
-    let shown = match usize::try_from(decimals) {
-        Ok(decimals) => format!("{x:.decimals$}"),
-        Err(_) => {
-            let power = libm::pow(10.0, place);
-            format!("{}", (x / power).round() * power)
-        }
-    };
-    let rounded = shown.parse().unwrap_or(x);
-    // No negative zero in a formula.
-    if rounded == 0.0 { 0.0 } else { rounded }
 }
 
 /// Five digits of a number: formulas show the very number by which something is divided.
@@ -314,11 +295,6 @@ pub fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
     (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
 }
 
-/// The largest modulus.
-pub fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
-}
-
 /// The mean of some courses, row by row.
 pub fn mean_of(courses: &[Vec<f64>]) -> Vec<f64> {
     let sum = (courses.iter().cloned()).reduce(|sum, one| map2(&sum, &one, |sum, one| sum + one));
@@ -349,14 +325,6 @@ pub fn flag(is_so: bool) -> f64 {
 pub fn crosses_zero(x: &[f64]) -> bool {
     let (least, most) = range(x);
     least < 0.0 && most > 0.0 && (-least).min(most) > 0.1 * (-least).max(most)
-}
-
-/// Different values, ascending.
-pub fn levels_of(x: &[f64]) -> Vec<f64> {
-    let mut levels = x.to_vec();
-    levels.sort_by(f64::total_cmp);
-    levels.dedup();
-    levels
 }
 
 #[cfg(test)]
@@ -419,10 +387,6 @@ mod tests {
     #[test]
     fn numbers_of_formulas_are_short() {
         assert_eq!(middle(&[20.0, 21.0, 23.0]), 21.3333);
-        assert_eq!(rounded(45_231.518_3, 0.002), 45_231.518);
-        assert_eq!(rounded(1_234_567.0, 250.0), 1_234_600.0);
-        assert_eq!(rounded(-0.001, 0.1), 0.0);
-        assert_eq!(rounded(7.123, 0.0), 7.123);
         assert_eq!(five_digits(2.500_001), 2.5);
         assert_eq!(figure_to(2.500_001, 1e-4), "2.5");
         assert_eq!(figure_to(101_326.283_7, 1e-3), "101326.284");

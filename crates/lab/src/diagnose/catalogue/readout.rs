@@ -13,7 +13,7 @@ use super::sharp::nearly_all;
 use super::{Cell, EffectId, Modifier, Variation, tied};
 use crate::diagnose::case::Response;
 use crate::diagnose::evidence;
-use crate::diagnose::resolution::{Steps, steps};
+use crate::recording::resolution::{Steps, steps};
 
 /// Cells of the readout.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {

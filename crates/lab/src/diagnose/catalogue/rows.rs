@@ -9,7 +9,7 @@ use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
 use super::modifiers::{known, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
-use crate::diagnose::resolution::resolution;
+use crate::recording::resolution::resolution;
 
 /// Longer recordings are not searched row by row.
 const MOST: usize = 800;

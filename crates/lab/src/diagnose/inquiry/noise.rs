@@ -5,7 +5,7 @@ use crate::diagnose::candidates::baseline;
 use crate::diagnose::catalogue::{Cell, generics, readout};
 use crate::diagnose::evidence;
 use crate::diagnose::failure::Failure;
-use crate::diagnose::resolution::u_of_step;
+use crate::recording::resolution::u_of_step;
 
 impl<'i> Inquiry<'i> {
     /// What nobody claims may be anything: where nothing was found, whether the noise is of the scale, or changes.

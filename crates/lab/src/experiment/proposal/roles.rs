@@ -1,8 +1,9 @@
 //! What the columns of a recording may be, by how their numbers behave and by their names.
 
 use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
 
-use gumption_core::quantity::{Unit, UnitTable};
+use gumption_core::quantity::UnitTable;
 use gumption_format::csv::{self, Column, Data, Labels};
 
 use crate::experiment::entries::RoleWord;
@@ -133,15 +134,11 @@ fn in_turns(column: &Column) -> Option<Vec<f64>> {
     let Data::Numbers(numbers) = &column.data else {
         return None;
     };
-    // A count is of dimension one, too.
-    let is_angle = |unit: &&Unit| ["°", "deg", "rad"].contains(&unit.symbol.as_str());
-    let unit = column.unit.as_ref().filter(is_angle)?;
-    let radian = UnitTable::default().parse("rad").ok()?;
-    let factor = unit.conversion_to(&radian)?.factor;
+    let factor = TAU / column.unit.as_ref()?.full_turn()?;
     let angles: Vec<f64> = numbers.iter().map(|x| factor * x).collect();
     let known = || angles.iter().copied().filter(|x| x.is_finite());
     let span = known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
-    (span > std::f64::consts::PI).then_some(angles)
+    (span > PI).then_some(angles)
 }
 
 /// R² of a straight line through the rows in which both are numbers.

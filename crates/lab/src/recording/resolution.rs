@@ -1,10 +1,10 @@
 //! The resolution of readings, as they show it themselves: the equal steps in which a display or a converter gives them.
 
-use super::catalogue::modifiers::{largest, levels_of, rounded};
+use super::values::{largest, levels_of, rounded};
 
 /// Equal steps in which readings come.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Steps {
+pub struct Steps {
     /// From one reading that is possible to the next.
     pub step: f64,
     /// One of the readings that are possible; zero where zero is.
@@ -18,14 +18,14 @@ pub fn u_of_step(step: f64) -> f64 {
 
 /// The coarsest steps in which readings come: those that they show, else the last decimal place of any. `None` where there are no
 /// readings, or they have all digits of a double.
-pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
+pub fn resolution(readings: &[f64]) -> Option<f64> {
     let known: Vec<f64> = readings.iter().copied().filter(|x| x.is_finite()).collect();
     let of_file = || digit(&levels_of(&known)).filter(|_| !known.is_empty());
     steps(&known).map(|steps| steps.step).or_else(of_file)
 }
 
 /// The equal steps in which readings come, if they are coarse. The file may round the readings once more, to its digits.
-pub(super) fn steps(readings: &[f64]) -> Option<Steps> {
+pub fn steps(readings: &[f64]) -> Option<Steps> {
     /// Probability that readings lie on equal steps by chance, at most.
     const CHANCE: f64 = 1e-3;
     /// Where the digits of the file are the steps: the share of the readings that are different from all others, at most.

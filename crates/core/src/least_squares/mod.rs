@@ -19,6 +19,7 @@
 //! | `elsewhere` | minima that other starts lead to |
 //! | `pattern` | runs of residuals of one sign |
 //! | `range` | observations whose squares leave the range of doubles |
+//! | `semidefinite` | triangular factor of a covariance matrix that may be singular |
 //! | `lack_of_fit` | χ² test for stated u, F test from replicates |
 //!
 //! # What is minimised
@@ -58,6 +59,7 @@ mod pattern;
 mod polynomial;
 mod problem;
 mod range;
+mod semidefinite;
 mod solution;
 #[cfg(test)]
 mod tests;
@@ -73,6 +75,7 @@ pub use nonlinear::{Linear, Minimum, Residuals, Stuck, glance, minimise};
 pub use pattern::{Runs, runs};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};
+pub use semidefinite::lower_factor;
 pub use solution::{Failure, Observed, Solution};
 
 use range::Scaled;

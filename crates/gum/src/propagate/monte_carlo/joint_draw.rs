@@ -16,9 +16,9 @@ use gumption_lanes::{Block, Generator, Level, Sampler, level, ops};
 use nalgebra::DMatrix;
 
 use super::assembly::{self, Assembly, Straight};
-use super::factor::lower_factor;
 use super::margin::Margin;
 use crate::budget::{Component, Group, Input, Law};
+use gumption_core::least_squares::lower_factor;
 
 /// Draws trials of all inputs.
 pub(super) struct JointDraw<'b> {

@@ -33,7 +33,6 @@ mod decisive_cells;
 mod draws;
 mod engine;
 mod existence;
-mod factor;
 mod fractions;
 mod heavy_components;
 mod histogram;

@@ -8,12 +8,12 @@ use super::collect::{Collector, Held, Plan};
 use super::comoments::CoMoments;
 use super::decisive_cells::Wanted;
 use super::engine::{Sink, Source, simulate};
-use super::factor::lower_factor;
 use super::interval::{Ordered, Ranked, Ranks};
 use super::moments::Pivot;
 use super::resolve::{Redraw, Resolved};
 use super::thread_pool::ThreadPool;
 use crate::propagate::result::Regions;
+use gumption_core::least_squares::lower_factor;
 
 /// Joint results of several outputs.
 #[derive(Debug, Clone)]

@@ -4,11 +4,11 @@
 //! The first dimensions are the most even, so the component that moves the measurand most gets the first
 //! one. Beyond the dimensions that have direction numbers, random numbers take their place.
 
-use super::super::factor::lower_factor;
 use super::super::joint_draw::weights;
 use super::shapes;
 use super::trial::{Trial, effects, inputs_of};
 use crate::budget::{Budget, Group, Law};
+use gumption_core::least_squares::lower_factor;
 use gumption_lanes::quantile::{OfScore, Quantile, scores};
 use gumption_lanes::sobol::DIMENSIONS;
 use gumption_lanes::triangle::{Row, Triangle};

@@ -4,12 +4,12 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::catalogue::deviations::Deviations;
 use super::catalogue::modifiers::{known, largest, line_through, map2, range};
-use super::catalogue::{FittedModel, Node, Variation};
+use super::catalogue::{FittedModel, Modifier, Node, Term, Variation};
 use super::confirm::along;
 use super::evidence::{Alternative, Examination};
 use super::noise::Claimed;
@@ -59,14 +59,35 @@ fn reverses(fitted: &FittedModel<'_>, along: &str) -> bool {
 }
 
 /// Whether an effect of these sizes adds more to an output than any two numbers of the size of its readings differ: it stands only
-/// against parameters that take it away again.
+/// against parameters that take it away again. What constants and lines take away where the model has them does not count: the
+/// square of a temperature about 0 °C and that about the middle of its values are one effect.
 fn outgrows(fitted: &FittedModel<'_>, variation: &Variation, sizes: &DVector<f64>) -> bool {
     let added = variation.columns(fitted) * sizes.map(known);
+    let lines = lines(fitted);
+    let ones = DVector::repeat(added.len(), 1.0);
+    let added = &added - along(&lines, &added, &ones);
     let blocks = fitted.design.blocks.len();
     (0..fitted.case().responses.len()).any(|response| {
         let readings = fitted.design.observed(response);
         let added = added.rows(response * blocks, blocks);
         largest(added.as_slice()) > 2.0 * largest(&readings)
+    })
+}
+
+/// The constants and the lines in columns that the parameters of the model add to its outputs, one regressor for each.
+fn lines(fitted: &FittedModel<'_>) -> DMatrix<f64> {
+    let columns = fitted.numeric().into_iter();
+    let in_model = columns.filter(|column| fitted.in_model(*column));
+    let constant = Modifier::number(vec![1.0; fitted.rows()], "1");
+    let modifiers = in_model.map(|column| fitted.own(column)).chain([constant]);
+    let terms = modifiers.flat_map(|modifier| {
+        let responses = 0..fitted.case().responses.len();
+        responses.map(move |response| Term::new(Node::Output, modifier.clone()).on(response))
+    });
+    let taken = terms.filter(|term| !fitted.leaves(term));
+    let regressors: Vec<DVector<f64>> = taken.map(|term| fitted.column(&term)).collect();
+    DMatrix::from_fn(fitted.fit.residuals.len(), regressors.len(), |row, at| {
+        regressors[at][row]
     })
 }
 
@@ -139,7 +160,6 @@ fn takes_all(variation: &Variation, sizes: &[f64], scales: &[f64]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::catalogue::{Modifier, Term};
     use super::*;
 
     #[test]

@@ -281,7 +281,7 @@ fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
 /// the scale or a time of waiting.
 fn about_zero(fitted: &FittedModel<'_>, column: usize, node: Node) -> Option<Variation> {
     let constant = Term::new(node, Modifier::number(vec![1.0; fitted.rows()], "1"));
-    let is_exact = fitted.absorbed().leaves(&fitted.column(&constant));
+    let is_exact = fitted.leaves(&constant);
     let own = || form("about zero", vec![fitted.own(column)]);
     (is_exact && zero_near(fitted, column)).then(own)
 }

@@ -79,6 +79,11 @@ impl<'f> FittedModel<'f> {
         (self.absorbed).get_or_init(|| Absorbed::by_parameters(self.fit))
     }
 
+    /// Whether its parameters leave something of a term.
+    pub fn leaves(&self, term: &Term) -> bool {
+        self.absorbed().leaves(&self.column(term))
+    }
+
     /// The case.
     pub fn case(&self) -> &'f Case {
         self.design.case

@@ -194,7 +194,7 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     };
     let is_left = |law: fn(f64) -> f64| {
         let part = on_output(fitted.by(column, "", law));
-        fitted.absorbed().leaves(&fitted.column(&part))
+        fitted.leaves(&part)
     };
     let mut variants = knees(fitted, column, "at", &above);
     if fitted.is_line(column) && (is_left(|_| 1.0) || is_left(|x| x)) {

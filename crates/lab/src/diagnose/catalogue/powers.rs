@@ -84,7 +84,7 @@ fn absorbs_all(fitted: &FittedModel<'_>, powers: &[Modifier]) -> bool {
     (0..case.responses.len()).all(|response| {
         powers.iter().all(|power| {
             let term = Term::new(Node::Output, power.clone()).on(response);
-            !fitted.absorbed().leaves(&fitted.column(&term))
+            !fitted.leaves(&term)
         })
     })
 }

@@ -82,7 +82,7 @@ fn background(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
         form("with a constant", vec![line(), level]),
     ];
     let (label, node) = (fitted.label(column), Node::Output);
-    let shows = fitted.absorbed().leaves(&fitted.column(&on_output(line())));
+    let shows = fitted.leaves(&on_output(line()));
     shows.then(|| on_node(fitted, EffectId::Background, label, node, forms))
 }
 
@@ -208,7 +208,7 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let mut cells: Vec<Cell> = powers.collect();
     let bends_by = |cell: &Cell| {
         let mut terms = cell.variants.iter().flat_map(|variant| &variant.terms);
-        terms.any(|term| fitted.absorbed().leaves(&fitted.column(term)))
+        terms.any(|term| fitted.leaves(term))
     };
     if fitted.passes_zero(column) {
         let form = form(

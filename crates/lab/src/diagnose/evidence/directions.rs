@@ -142,7 +142,9 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
         column *= *scale;
     }
     let nothing = || DMatrix::zeros(columns.ncols(), columns.nrows());
-    let mut inverse = pseudo_inverse(unit, FLAT).unwrap_or_else(nothing);
+    // A model without parameters has no columns.
+    let found = (!unit.is_empty()).then(|| pseudo_inverse(unit, FLAT));
+    let mut inverse = found.flatten().unwrap_or_else(nothing);
     for (mut row, scale) in inverse.row_iter_mut().zip(&scales) {
         row *= *scale;
     }

@@ -18,12 +18,14 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 34] = [
+const FIXED: [(&str, &str); 36] = [
     ("with a constant", "含常数项"),
     ("about zero", "以零点为中心"),
     ("with its half", "含其半周期"),
     ("anew in each run", "每次运行重新开始"),
     ("not in balance at the start", "起始时未平衡"),
+    ("engaged at the start", "起始时已啮合"),
+    ("reversed at the start", "起始时刚换向"),
     ("bent beyond the recording", "在记录之外弯曲"),
     ("levelling off", "趋于饱和"),
     ("at once", "即时"),

@@ -3,8 +3,10 @@
 use super::building::{form, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
-    direction, figure, five_digits, grid, map, map2, mean_of, onward, play, range, typical_step,
+    Start, direction, figure, five_digits, grid, map, map2, mean_of, onward, play, range,
+    typical_step,
 };
+use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
@@ -27,19 +29,22 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let least_step = (steps.filter(|step| *step > 0.0)).fold(f64::INFINITY, f64::min);
     let told_apart = (widths.enumerate()).filter(|(at, width)| *at == 0 || *width > least_step);
-    let variants = told_apart.map(|(_, width)| {
-        let modifier = map2(&play(&fitted.clock.values, x, width), x, |played, x| {
-            (played - x) / width
-        });
+    let begun = told_apart.flat_map(|(_, width)| Start::ALL.map(|start| (width, start)));
+    let variants = begun.map(|(width, start)| {
+        let played = play(&fitted.clock.values, x, width, start);
+        let modifier = map2(&played, x, |played, x| (played - x) / width);
         let shown = fitted.figure(column, width);
-        let text = format!("(play({label}, {shown}) - {label})/({shown})");
+        let text = format!(
+            "({} - {label})/({shown})",
+            played_text(label, &shown, start)
+        );
         let term = Term::new(Node::Column(column), Modifier::number(modifier, text));
         // A gap that no step tells from a narrower one has its size alone.
-        let label = match width > least_step {
+        let gap = match width > least_step {
             true => format!("gap {} {unit}", figure(width)),
             false => String::new(),
         };
-        Variation::one(label, term)
+        Variation::one(begun_label(gap, start), term)
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants
@@ -105,28 +110,55 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let (least, most) = range(x);
     let unit = fitted.unit(column);
     let widths = WIDTHS.map(|part| five_digits(part * (most - least)));
-    let behind = |width: f64| {
-        let played = play(&fitted.clock.values, x, width);
-        let modifier = map2(x, &played, |x, played| x - played);
-        let shown = fitted.figure(column, width);
-        let text = format!("({label} - play({label}, {shown}))");
-        Modifier::new(modifier, text, fitted.step_unit(column))
+    let all = widths.map(|width| fitted.figure(column, width)).join(", ");
+    let begun = |start: Start| {
+        let behind = |width: f64| {
+            let played = play(&fitted.clock.values, x, width, start);
+            let modifier = map2(x, &played, |x, played| x - played);
+            let shown = fitted.figure(column, width);
+            let text = format!("({label} - {})", played_text(label, &shown, start));
+            Modifier::new(modifier, text, fitted.step_unit(column))
+        };
+        let term = |width: f64| on_output(behind(width));
+        let single = fitted
+            .finer
+            .times(sharpened(fitted, widths.into(), &term))
+            .into_iter();
+        let single = single.map(|width| {
+            let share = figure(100.0 * width / (most - least));
+            let label = begun_label(format!("width {share} % of the range"), start);
+            Variation::one(label, term(width)).shaped("w", width, &unit)
+        });
+        let mean = mean_of(&widths.map(|width| behind(width).values.to_vec()));
+        let played = played_text(label, "w", start);
+        let text = format!("mean of ({label} - {played}) over w = {all}");
+        let mean = Modifier::new(mean, text, fitted.step_unit(column));
+        let even = Variation::one(
+            begun_label("several widths".to_owned(), start),
+            on_output(mean),
+        );
+        let apart = widths.into_iter().skip(1).step_by(2);
+        let apart = apart.map(|width| on_output(behind(width)));
+        let label = begun_label("two widths".to_owned(), start);
+        let uneven = Variation::of(label, apart.collect());
+        single.chain([even, uneven]).collect::<Vec<Variation>>()
     };
-    let single = fitted.finer.times(widths.into()).into_iter().map(|width| {
-        let share = figure(100.0 * width / (most - least));
-        let label = format!("width {share} % of the range");
-        Variation::one(label, on_output(behind(width))).shaped("w", width, &unit)
-    });
-    let mean = mean_of(&widths.map(|width| behind(width).values.to_vec()));
-    let all = widths.map(|width| fitted.figure(column, width));
-    let all = all.join(", ");
-    let text = format!("mean of ({label} - play({label}, w)) over w = {all}");
-    let mean = Modifier::new(mean, text, fitted.step_unit(column));
-    let even = Variation::one("several widths", on_output(mean));
-    let apart = widths.into_iter().skip(1).step_by(2);
-    let apart = apart.map(|width| on_output(behind(width)));
-    let uneven = Variation::of("two widths", apart.collect());
-    single.chain([even, uneven]).collect()
+    Start::ALL.into_iter().flat_map(begun).collect()
+}
+
+/// A play in a formula.
+fn played_text(label: &str, width: &str, start: Start) -> String {
+    match start {
+        Start::Middle => format!("play({label}, {width})"),
+        start => format!("play({label}, {width}, {})", start.label()),
+    }
+}
+
+/// What a variant is called, with where its play begins.
+fn begun_label(label: String, start: Start) -> String {
+    let parts = [label.as_str(), start.label()];
+    let told = parts.into_iter().filter(|part| !part.is_empty());
+    told.collect::<Vec<&str>>().join(", ")
 }
 
 /// Whether a course goes both ways, more than by returning to where a series begins: enough of its values are reached rising and

@@ -181,10 +181,44 @@ pub fn onward(t: &[f64], x: &[f64]) -> Vec<f64> {
     })
 }
 
-/// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins in the middle of its gap, and anew
+/// Where in its gap a play is in the first row, which no row before it tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// In the middle: at rest before.
+    Middle,
+    /// At the end: the first value was reached in the direction in which the values go on.
+    Engaged,
+    /// At the other end: it was reached in the other direction.
+    Reversed,
+}
+
+impl Start {
+    /// All of them.
+    pub const ALL: [Start; 3] = [Start::Middle, Start::Engaged, Start::Reversed];
+
+    /// What a label says of it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Start::Middle => "",
+            Start::Engaged => "engaged at the start",
+            Start::Reversed => "reversed at the start",
+        }
+    }
+}
+
+/// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins as `start` says, and anew
 /// where the time goes backwards.
-pub fn play(t: &[f64], x: &[f64], w: f64) -> Vec<f64> {
-    in_each(t, |rows| play_from(x[rows.start], &x[rows], &[], w))
+pub fn play(t: &[f64], x: &[f64], w: f64, start: Start) -> Vec<f64> {
+    in_each(t, |rows| {
+        let x = &x[rows];
+        let way = direction_in_one(x)[0];
+        let behind = match start {
+            Start::Middle => 0.0,
+            Start::Engaged => 0.5 * w * way,
+            Start::Reversed => -0.5 * w * way,
+        };
+        play_from(x[0] - behind, x, &[], w)
+    })
 }
 
 /// Play of width `w` that begins in the middle of its gap at a value; some rows were reached by way of
@@ -368,7 +402,10 @@ mod tests {
     fn play_follows_behind_the_gap() {
         let x = [0.0, 1.0, 2.0, 1.5, 1.0, 0.0];
         let t = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        assert_eq!(play(&t, &x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
+        let begun = |start: Start| play(&t, &x, 1.0, start);
+        assert_eq!(begun(Start::Middle), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
+        assert_eq!(begun(Start::Engaged), [-0.5, 0.5, 1.5, 1.5, 1.5, 0.5]);
+        assert_eq!(begun(Start::Reversed), [0.5, 0.5, 1.5, 1.5, 1.5, 0.5]);
         assert_eq!(direction(&t, &x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
         let again = [0.0, 1.0, 1.0, 0.0, 0.0];
         assert_eq!(direction(&t[..5], &again), [1.0, 1.0, 1.0, -1.0, -1.0]);
@@ -379,7 +416,8 @@ mod tests {
     fn another_recording_has_a_history_of_its_own() {
         let t = [0.0, 1.0, 2.0, 0.5, 1.5, 2.5];
         let x = [0.0, 2.0, 0.0, 0.0, 2.0, 0.0];
-        for course in [play(&t, &x, 1.0), direction(&t, &x), rate(&t, &x)] {
+        let played = play(&t, &x, 1.0, Start::Engaged);
+        for course in [played, direction(&t, &x), rate(&t, &x)] {
             assert_eq!(course[..3], course[3..]);
         }
     }

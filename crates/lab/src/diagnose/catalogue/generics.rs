@@ -8,7 +8,7 @@ use super::angles::{angles, turning};
 use super::building::{on_node, on_output};
 use super::fitted::{FittedModel, Node};
 use super::levels::{indicator, present};
-use super::modifiers::{flag, levels_of, map, range};
+use super::modifiers::{flag, levels_of, map, map2, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 
@@ -107,14 +107,21 @@ fn smooth(fitted: &FittedModel<'_>, node: Node, name: &str, course: &[f64]) -> O
 fn waves(course: &[f64]) -> Vec<Feature> {
     let (least, most) = range(course);
     let count = COSINES.min(levels_of(course).len() - 1);
-    let feature = |k: usize| {
-        let wave = |x: f64| libm::cos(PI * k as f64 * (x - least) / (most - least));
+    let first = map(course, |x| libm::cos(PI * (x - least) / (most - least)));
+    // cos kθ = 2 cos θ cos (k − 1)θ − cos (k − 2)θ
+    let mut waves = vec![vec![1.0; course.len()], first.clone()];
+    for k in 2..=count {
+        let next = map2(&first, &waves[k - 1], |first, before| 2.0 * first * before);
+        waves.push(map2(&next, &waves[k - 2], |next, before| next - before));
+    }
+    let feature = |(k, wave): (usize, Vec<f64>)| {
         // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
         let frequency = PI * k as f64 * LENGTH;
         let variance = libm::exp(-frequency * frequency / 2.0).max(1e-3);
-        (Modifier::unnamed(map(course, wave)), variance)
+        (Modifier::unnamed(wave), variance)
     };
-    (1..=count).map(feature).collect()
+    let waves = waves.into_iter().enumerate().skip(1).take(count);
+    waves.map(feature).collect()
 }
 
 /// A value of its own at each value of a column that comes again and again.

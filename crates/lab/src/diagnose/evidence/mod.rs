@@ -25,6 +25,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `noise` | covariance matrices of the rows and how well they are known |
+//! | `triangular` | the factor of a covariance matrix, and its inverse |
 //! | `baseline` | whitening, projection, what the data say of the declared parameters |
 //! | `question` | candidates, atoms, settings: what is asked |
 //! | `refusal` | the reasons not to answer |
@@ -94,6 +95,7 @@ mod sequential;
 mod slots;
 mod space;
 mod tails;
+mod triangular;
 mod unlisted;
 mod unsteady;
 

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{DMatrix, DVector};
 
 use super::refusal::Refusal;
+use super::triangular::factors;
 
 /// Covariance matrix of the errors of n rows, in squared output units.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,12 +62,9 @@ impl Correlation {
     }
 
     fn factors(&self) -> Result<&[Factor; 2], Refusal> {
-        let factored = || {
-            let lower = Factor::dense(&self.matrix).ok()?;
-            let inverse = lower.inverse().ok()?;
-            Some([lower, inverse])
-        };
-        let factors = self.factors.get_or_init(factored);
+        let factors = self
+            .factors
+            .get_or_init(|| Factor::dense(&self.matrix).ok());
         factors.as_ref().ok_or(Refusal::NotPositive)
     }
 }
@@ -158,7 +156,7 @@ impl Factor {
                 is_positive(variances)?;
                 Ok(Factor::Diagonal(variances.map(f64::sqrt)))
             }
-            Covariance::Dense(matrix) => Factor::dense(matrix),
+            Covariance::Dense(matrix) => Factor::dense(matrix).map(|[lower, _]| lower),
             Covariance::Correlated { u, correlation } => {
                 is_positive(u)?;
                 Ok(correlation.factors()?[0].scaled(|row, _| u[row]))
@@ -166,10 +164,15 @@ impl Factor {
         }
     }
 
-    /// L⁻¹ of a covariance matrix.
+    /// L⁻¹ of a covariance matrix. Products with it are much faster than solutions with L, and noise is never so nearly
+    /// singular that the difference shows.
     pub(super) fn whitening(covariance: &Covariance) -> Result<Factor, Refusal> {
         match covariance {
-            Covariance::Diagonal(_) | Covariance::Dense(_) => Factor::of(covariance)?.inverse(),
+            Covariance::Diagonal(variances) => {
+                is_positive(variances)?;
+                Ok(Factor::Diagonal(variances.map(|v| 1.0 / v.sqrt())))
+            }
+            Covariance::Dense(matrix) => Factor::dense(matrix).map(|[_, inverse]| inverse),
             Covariance::Correlated { u, correlation } => {
                 is_positive(u)?;
                 Ok(correlation.factors()?[1].scaled(|_, column| 1.0 / u[column]))
@@ -177,21 +180,26 @@ impl Factor {
         }
     }
 
-    fn dense(matrix: &DMatrix<f64>) -> Result<Factor, Refusal> {
+    /// L and L⁻¹ of a matrix that is written out.
+    fn dense(matrix: &DMatrix<f64>) -> Result<[Factor; 2], Refusal> {
         is_positive(&matrix.diagonal())?;
         let groups = groups(matrix);
         if groups.len() == matrix.nrows() {
-            return Ok(Factor::Diagonal(matrix.diagonal().map(f64::sqrt)));
+            let sd = matrix.diagonal().map(f64::sqrt);
+            let inverse = sd.map(|u| 1.0 / u);
+            return Ok([Factor::Diagonal(sd), Factor::Diagonal(inverse)]);
         }
-        let group = |rows: Vec<usize>| {
+        let (mut lower, mut inverse) = (Vec::new(), Vec::new());
+        for rows in groups {
             let own = DMatrix::from_fn(rows.len(), rows.len(), |i, j| matrix[(rows[i], rows[j])]);
-            Some(Group {
-                rows,
-                matrix: own.cholesky()?.unpack(),
-            })
-        };
-        let groups: Option<Vec<Group>> = groups.into_iter().map(group).collect();
-        Ok(Factor::Groups(groups.ok_or(Refusal::NotPositive)?))
+            let [own, own_inverse] = factors(&own).ok_or(Refusal::NotPositive)?;
+            inverse.push(Group {
+                rows: rows.clone(),
+                matrix: own_inverse,
+            });
+            lower.push(Group { rows, matrix: own });
+        }
+        Ok([Factor::Groups(lower), Factor::Groups(inverse)])
     }
 
     /// With every element multiplied by what belongs to its row and column.
@@ -213,26 +221,6 @@ impl Factor {
                     }
                 };
                 Factor::Groups(groups.iter().map(group).collect())
-            }
-        }
-    }
-
-    /// L⁻¹. Products with it are much faster than solutions with L, and noise is never so nearly
-    /// singular that the difference shows.
-    pub(super) fn inverse(&self) -> Result<Factor, Refusal> {
-        match self {
-            Factor::Diagonal(sd) => Ok(Factor::Diagonal(sd.map(|u| 1.0 / u))),
-            Factor::Groups(groups) => {
-                let inverse = |group: &Group| {
-                    let size = group.matrix.nrows();
-                    let identity = DMatrix::identity(size, size);
-                    Some(Group {
-                        rows: group.rows.clone(),
-                        matrix: group.matrix.solve_lower_triangular(&identity)?,
-                    })
-                };
-                let groups: Option<Vec<Group>> = groups.iter().map(inverse).collect();
-                Ok(Factor::Groups(groups.ok_or(Refusal::NotPositive)?))
             }
         }
     }
@@ -343,8 +331,7 @@ mod tests {
         ];
         let matrix = DMatrix::from_fn(4, 4, |i, j| rows[i][j]);
         assert_eq!(groups(&matrix), [[0, 1], [2, 3]]);
-        let lower = Factor::of(&Covariance::Dense(matrix.clone())).unwrap();
-        let whitener = lower.inverse().unwrap();
+        let [lower, whitener] = Factor::dense(&matrix).unwrap();
         // W Σ Wᵀ = I.
         let both = whitener.times(&whitener.times(&matrix).transpose());
         assert!((both - DMatrix::identity(4, 4)).norm() < 1e-12);
@@ -379,10 +366,10 @@ mod tests {
     #[test]
     fn rows_that_are_all_independent_have_no_groups() {
         let matrix = DMatrix::from_diagonal_element(3, 3, 4.0);
-        let factor = Factor::of(&Covariance::Dense(matrix)).unwrap();
+        let [factor, inverse] = Factor::dense(&matrix).unwrap();
         assert!(matches!(factor, Factor::Diagonal(_)));
         let column = DMatrix::from_element(3, 1, 2.0);
-        let white = factor.inverse().unwrap().times(&column);
+        let white = inverse.times(&column);
         assert_eq!(white, DMatrix::from_element(3, 1, 1.0));
     }
 }

@@ -4,7 +4,7 @@
 //! with every row of a long recording that takes more memory and time than a computer has. Blocks are compared, so
 //! rows that lie much closer than blocks need not be told apart: a course that is straight over a piece has the
 //! lag of all its rows, a delay shorter than a piece is its rate times the delay, and the quickest time constant
-//! that is looked for is half a block. What is found is fitted to all rows again.
+//! that is looked for is half a block, or half a piece behind an input. What is found is fitted to all rows of the blocks again.
 
 use std::ops::Range;
 

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::case::{Case, Origin, Role};
+use super::catalogue::modifiers::largest;
 use super::catalogue::signal;
 use super::design::Design;
 use super::evidence;
@@ -140,8 +141,11 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
             let factors = values.iter().map(|value| spread.at(*value));
             let factors = DVector::from_iterator(blocks, factors).component_mul(scales);
             let u = plain.component_mul(&factors);
-            let scale = scale(design, &own.component_div(&u));
-            u * scale
+            // A perfect fit leaves nothing but the rounding that the plain ones are.
+            match scale(design, &own.component_div(&u)) {
+                scale if scale > 0.0 => u * scale,
+                _ => u,
+            }
         };
         for (at, draw) in draws.iter_mut().enumerate() {
             let scales = by_label.as_ref().map_or(&even, |labels| &labels.draws[at]);
@@ -207,9 +211,10 @@ fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut u = DVector::zeros(design.observations());
     for response in 0..design.case.responses.len() {
         let own = fit.residuals.rows(response * blocks, blocks).into_owned();
-        let s = scale(design, &own);
-        // A perfect fit leaves nothing; any positive number serves.
-        let s = if s > 0.0 { s } else { f64::MIN_POSITIVE.sqrt() };
+        // A perfect fit leaves the rounding of its arithmetic; where all is zero any positive number serves.
+        let rounding = f64::EPSILON * largest(&design.observed(response));
+        let s = scale(design, &own).max(rounding);
+        let s = if s > 0.0 { s } else { 1.0 };
         u.rows_mut(response * blocks, blocks).fill(s);
     }
     let counts = counts(design.case);

@@ -7,7 +7,8 @@ use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
 /// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions or labels, an exponential; of what
-/// comes at one value, or under some labels only; of a slip of a line where the rows may stand in any order.
+/// comes at one value, or under some labels only; of a slip of a line where the rows may stand in any order, and of what goes on
+/// from row to row where no column says that time does.
 pub(super) const HIGHER: f64 = 0.3;
 
 /// A variation by what its terms follow, to be put on a node.
@@ -212,6 +213,14 @@ pub(super) fn time_constants(fitted: &FittedModel<'_>) -> Vec<f64> {
     let blocks = fitted.design.blocks.len().max(2) as f64;
     let least = (fitted.clock.span() / blocks).max(fitted.clock.interval());
     time_constants_from(fitted, 0.5 * least)
+}
+
+/// The same for what follows an input, which is known within blocks as well: from a fraction of the interval of their pieces on.
+pub(super) fn time_constants_of_input(fitted: &FittedModel<'_>) -> Vec<f64> {
+    match fitted.rows() > fitted.design.blocks.len() {
+        true => time_constants_from(fitted, 0.5 * fitted.clock.interval()),
+        false => time_constants(fitted),
+    }
 }
 
 /// The same from another one on.

@@ -1,7 +1,9 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::building::{cell, course, decay, form, on_node, on_output, pair, time_constants, timed};
+use super::building::{
+    cell, course, decay, form, on_node, on_output, pair, time_constants_of_input, timed,
+};
 use super::conditions::{inverse, on_offset, spreads};
 use super::delays;
 use super::fitted::{FittedModel, Node};
@@ -279,7 +281,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     };
     let course = course(fitted, x, &lacking);
     let lacks = |tau: f64| lacking(course, tau);
-    let scales = sharpened(fitted, time_constants(fitted), &lacks);
+    let scales = sharpened(fitted, time_constants_of_input(fitted), &lacks);
     let singles = fitted.finer.times(scales.clone());
     let single = singles
         .iter()
@@ -296,7 +298,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let since = map(t, |t| t - began);
-    let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
+    let unbalanced = scales.iter().map(|tau| {
         let start = decay(
             &since,
             &fitted.time_less(began),

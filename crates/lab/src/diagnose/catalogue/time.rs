@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 
 use super::angles::runs;
-use super::building::{decay, form, of_the_whole, on_node, on_output, timed, wave};
+use super::building::{HIGHER, decay, form, of_the_whole, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
@@ -87,8 +87,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
             add(&[id], vec![form("", pair)]);
         }
+        return cells;
     }
-    cells
+    let undeclared = cells.into_iter().map(|cell| Cell {
+        odds: HIGHER * cell.odds,
+        ..cell
+    });
+    undeclared.collect()
 }
 
 /// When the recording began.

@@ -29,6 +29,38 @@ use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Pick, StandIn, diagnose, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
 
+/// What was otherwise in the diagnosis, or in what is counted, at each earlier table.
+const EARLIER: [&str; 28] = [
+    "four rigs, the catalogue scored by slopes",
+    "noise judged before the explanation",
+    "departures of a form allowed to everything beside it",
+    "a delay written as two terms",
+    "effects on the scale of specimens not looked for, shapes looked for anew in a held-out recording",
+    "aliases with a coefficient more left out of the lists, widths of plays on a grid",
+    "rules for accidents and contested names, what stood for several effects kept beside them, waves over fewer than 16 set points not looked for",
+    "estimated white noise not tested; the right name with a further order counted as a rival, so that no linear coefficient had a κ",
+    "pieces of one course identified; the readings of a norm without noise of their own",
+    "set points in small steps taken for ramps; other wrong readings counted as noise of one",
+    "the name and the adopted model chosen apart; what other sets have instead of a name left out; slopes never taken anew; noise that walks over the whole recording not among the laws",
+    "effects that bend the fit never compared as they are fitted; what bends a course without a name told as a name; straight backgrounds, zeros of conditions and exponents of first powers not looked for",
+    "squares, products and rates of change not carried over to a recording held out; noise the same for all labels",
+    "estimated noise always normal, steps at one value of a stimulus not in the catalogue",
+    "one statistic for all effects beside heavy tails, what is exponential not in the catalogue",
+    "no law of rounding beside estimated noise",
+    "the fresh recording of a rig with another thermometer, wide exponentials and bends below a value not in the catalogue",
+    "a thermal lag behind its own stimulus counted as wrong, names identified that do not show in a recording held out",
+    "weights of bits and ringing not in the catalogue",
+    "limits of the rate not in the catalogue",
+    "scales that wander taken for noise that wanders",
+    "a second effect held against noise of one law for all recordings",
+    "pairs that do not resemble each other never held against one effect under estimated noise",
+    "sizes by label, combinations of labels and drifts from one moment on not in the catalogue",
+    "several steps of a staircase not in the catalogue, under a label only what is likeliest over all rows",
+    "single values taken for ranges, what dies away with a time of waiting not in the catalogue, names identified whose size differs between parts of the recording",
+    "deviations about one value not in the catalogue, staircases of faint steps identified",
+    "noise that outputs have in common taken for physics, squares of degrees refused for their size, plays that begin in the middle of their gap alone",
+];
+
 struct Options {
     cases: usize,
     threads: usize,
@@ -101,35 +133,11 @@ fn save_tables(options: &Options) -> Result<(), String> {
          challenge` (docs/challenge.md), on rigs and instruments in turn. λ is the visible strength of an effect in standard \
          deviations of the true noise, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
          without the effect. Rivals are every other effect of the simulator, in all its forms, and every wrong candidate of the \
-         catalogue that has at most one coefficient more than the right one and is not the right one with a further order. Every case is a line of diagnosis.jsonl. \
-         Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes), diagnosis-2.md (noise judged before \
-         the explanation), diagnosis-3.md (departures of a form allowed to everything beside it), diagnosis-4.md (a delay written as two terms), \
-         diagnosis-5.md (effects on the scale of specimens not looked for, shapes looked for anew in a held-out recording), \
-         diagnosis-6.md (aliases with a coefficient more left out of the lists, widths of plays on a grid), \
-         diagnosis-7.md (rules for accidents and contested names, what stood for several effects kept beside them, waves over fewer \
-         than 16 set points not looked for), diagnosis-8.md (estimated white noise not tested; the right name with a further order counted as a \
-         rival, so that no linear coefficient had a κ), diagnosis-9.md (pieces of one course identified; the readings of a norm without noise \
-         of their own), diagnosis-10.md (set points in small steps taken for ramps; other wrong readings counted as noise of one), \
-         diagnosis-11.md (the name and the adopted model chosen apart; what other sets have instead of a name left out; slopes never taken \
-         anew; noise that walks over the whole recording not among the laws), diagnosis-12.md (effects that bend the fit never compared as \
-         they are fitted; what bends a course without a name told as a name; straight backgrounds, zeros of conditions and exponents of first \
-         powers not looked for), diagnosis-13.md (squares, products and rates of change not carried over to a recording held out; noise the \
-         same for all labels), diagnosis-14.md (estimated noise always normal, steps at one value of a stimulus not in the catalogue), \
-         diagnosis-15.md (one statistic for all effects beside heavy tails, what is exponential not in the catalogue), \
-         diagnosis-16.md (no law of rounding beside estimated noise), \
-         diagnosis-17.md (the fresh recording of a rig with another thermometer, wide exponentials and bends below a value not in the catalogue), \
-         diagnosis-18.md (a thermal lag behind its own stimulus counted as wrong, names identified that do not show in a recording held out), \
-         diagnosis-19.md (weights of bits and ringing not in the catalogue), diagnosis-20.md (limits of the rate not in the catalogue), diagnosis-21.md (scales that wander taken for noise that wanders), \
-         diagnosis-22.md (a second effect held against noise of one law for all recordings), \
-         diagnosis-23.md (pairs that do not resemble each other never held against one effect under estimated noise), \
-         diagnosis-24.md (sizes by label, combinations of labels and drifts from one moment on not in the catalogue), \
-         diagnosis-25.md (several steps of a staircase not in the catalogue, under a label only what is likeliest over all rows), \
-         diagnosis-26.md (single values taken for ranges, what dies away with a time of waiting not in the catalogue, names identified whose size differs between parts of the recording), \
-         diagnosis-27.md (deviations about one value not in the catalogue, staircases of faint steps identified).",
+         catalogue that has at most one coefficient more than the right one and is not the right one with a further order. Every case is a line of diagnosis.jsonl.",
         env!("CARGO_PKG_VERSION")
     );
-    std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))
-        .map_err(|e| e.to_string())
+    let tables = report(&read(&lines), &made) + &earlier();
+    std::fs::write(out.join("diagnosis.md"), tables).map_err(|e| e.to_string())
 }
 
 /// Trials with the records that exist already; nothing is recorded of a trial that is none.
@@ -143,6 +151,18 @@ struct Study<'a> {
 
 /// Records after which the file is written.
 const OFTEN: usize = 20;
+
+/// The list of the earlier tables.
+fn earlier() -> String {
+    let lines = EARLIER.iter().enumerate().map(|(at, changed)| {
+        let name = format!("diagnosis-{}.md", at + 1);
+        format!("- [{name}]({name}): {changed}\n")
+    });
+    let lines: String = lines.collect();
+    format!(
+        "\n## Earlier tables\n\nEach stands as it fell, with what was otherwise at it.\n\n{lines}"
+    )
+}
 
 impl<'a> Study<'a> {
     fn new(options: &'a Options) -> Study<'a> {

@@ -115,8 +115,10 @@ fn beside(
                 let improved = improved.into_iter();
                 contents.extend(improved.map(|(name, text)| (name.to_owned(), text.into_bytes())));
             }
-            None => output::warn(
-                "nothing was adopted: there is no improved experiment, only the budget\n",
+            None => output::note(
+                &say!("nothing was adopted: there is no improved experiment, only the budget")
+                    .in_language(args.form.language()),
+                args.form.language(),
             ),
         }
         files.extend(output::in_folder(folder, contents)?);

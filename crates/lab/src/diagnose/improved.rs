@@ -20,10 +20,15 @@ const RECORDING: &str = "recording.csv";
 const AT_REST: &str = "at_rest.csv";
 
 /// The files of the improved case, names and texts: itself, its recording, and that at rest where it has one;
-/// nothing if no effect was adopted.
+/// nothing if no effect was adopted, and no rounding beside the stated noise.
 pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str, String)>> {
-    let adopted = diagnosis.adopted.as_ref()?;
-    let extended = &adopted.extended.case;
+    let adopted = diagnosis.adopted.as_ref();
+    let steps = steps(case, &diagnosis.noise);
+    let is_rounded = diagnosis.noise.rounding.is_some() && steps.iter().any(Option::is_some);
+    if adopted.is_none() && !is_rounded {
+        return None;
+    }
+    let extended = adopted.map_or(case, |adopted| &adopted.extended.case);
     let mut text = title(case, &format!("{} (improved)", case.title));
     let (file, averaging) = (quoted(RECORDING), averaging(case, diagnosis));
     text += &format!("recording = {{ file = {file}, average = {averaging} }}\n");
@@ -39,7 +44,6 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     text += &own_units(&case.own_units);
     text += "\n[columns]\n";
     let is_there = |column: &&Column| !matches!(column.data, Data::Absent);
-    let steps = steps(case, &diagnosis.noise);
     for (index, column) in extended.columns.iter().enumerate() {
         if !is_there(&column) {
             continue;
@@ -47,14 +51,17 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         let mut outputs = case.responses.iter().zip(&steps);
         let own = outputs.find(|(output, _)| output.observed == Observed::Column(index));
         let step = own.and_then(|(_, step)| *step);
-        let mut definitions = adopted.extended.definitions();
+        let mut definitions = adopted
+            .into_iter()
+            .flat_map(|one| one.extended.definitions());
         let defined = definitions.find(|(name, _)| *name == column.name);
         let remark = defined.map_or(String::new(), |(_, text)| format!("  # {text}"));
         let (name, entry) = (key(&column.name), entry(column, extended, step));
         text += &format!("{name} = {entry}{remark}\n");
     }
     text += "\n[parameter]\n";
-    let values = adopted.unknowns.iter().chain(&adopted.coefficients);
+    let coefficients = adopted.map_or(&[][..], |adopted| &adopted.coefficients);
+    let values = diagnosis.estimates().iter().chain(coefficients);
     for parameter in &extended.parameters {
         let of = values.clone().find(|value| {
             value.name == parameter.name || value.name.starts_with(&format!("{}[", parameter.name))

@@ -68,7 +68,7 @@ impl Teller<'_> {
             Account::NothingToActOn(id) => {
                 let (name, formula) = (nowhere(*id, l), letters().fill(&id.entry().formula));
                 say!(
-                    "{name}: not considered; the case has nothing that it could act on ({formula})."
+                    "{name}: not considered. The case has nothing that it could act on, or its rows would not show it as such: too few where it acts, or no order between them ({formula})."
                 )
                 .in_language(l)
             }

@@ -1,7 +1,7 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{Course, amount, figure, grid, map};
+use super::modifiers::{Course, figure, grid, in_unit, map};
 use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
@@ -199,7 +199,7 @@ pub(super) fn slip(fitted: &FittedModel<'_>, id: EffectId, variants: Vec<Variati
 pub(super) fn timed(fitted: &FittedModel<'_>, scales: &[f64], terms: Vec<Term>) -> Variation {
     let unit = fitted.time_unit();
     let shown: Vec<String> = scales.iter().map(|tau| figure(*tau)).collect();
-    let shown = amount(shown.join(" and "), &unit);
+    let shown = in_unit(&shown.join(" and "), &unit);
     let form = Variation::of(format!("τ = {shown}"), terms);
     match scales {
         [tau] => form.shaped("τ", *tau, &unit),

@@ -6,7 +6,8 @@ use nalgebra::DVector;
 
 use super::absorbed::Absorbed;
 use super::modifiers::{
-    amount, centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
+    amount, centred, correlation, crosses_zero, figure, in_unit, largest, map, map2, middle, range,
+    rate,
 };
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Observed, Role};
@@ -299,12 +300,12 @@ impl<'f> FittedModel<'f> {
 
     /// A time as formulas and labels show it.
     pub fn duration(&self, time: f64) -> String {
-        amount(figure(time), &self.time_unit())
+        in_unit(&figure(time), &self.time_unit())
     }
 
     /// A moment as the recording tells it: by the calendar or the clock, else by its number.
     pub fn moment(&self, time: f64) -> String {
-        let numbered = || amount(figure(time), &self.time_unit());
+        let numbered = || in_unit(&figure(time), &self.time_unit());
         self.by_calendar(time).unwrap_or_else(numbered)
     }
 

@@ -126,7 +126,7 @@ fn ceiling(
     let Response { name, unit, .. } = &fitted.case().responses[response];
     let (mut text, mut labels) = (name.clone(), Vec::new());
     for Pile { sign, level, .. } in piles {
-        let shown = amount(level, &unit.after_number());
+        let shown = amount(*level, &unit.after_number());
         let [least, end] = match *sign > 0.0 {
             true => ["min", "above"],
             false => ["max", "below"],
@@ -153,7 +153,7 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let widths = [0.05, 0.1, 0.2].map(|share| share * most);
     let widths = fitted.finer.times(sharpened(fitted, widths.into(), &band));
     let bands = widths.into_iter().map(five_digits).map(|width| {
-        let label = format!("within {width} {unit}");
+        let label = format!("within {}", amount(width, &unit));
         Variation::one(label, band(width)).shaped("w", width, &unit)
     });
     let forms = [step].into_iter().chain(bands);

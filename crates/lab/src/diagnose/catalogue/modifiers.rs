@@ -1,6 +1,5 @@
 //! What a disturbance may follow, computed row by row along the recorded order.
 
-use std::fmt::Display;
 use std::ops::Range;
 
 pub use crate::recording::values::{largest, levels_of, rounded};
@@ -250,13 +249,27 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
 }
 
 /// A number with its unit, which may be none.
-pub fn amount(x: impl Display, unit: &str) -> String {
-    format!("{x} {unit}").trim_end().to_owned()
+pub fn amount(x: f64, unit: &str) -> String {
+    in_unit(&written(x), unit)
+}
+
+/// What is written of a number, with its unit, which may be none.
+pub fn in_unit(text: &str, unit: &str) -> String {
+    format!("{text} {unit}").trim_end().to_owned()
+}
+
+/// A number with all its digits, by a power of ten where there would be many zeros.
+fn written(x: f64) -> String {
+    let size = x.abs();
+    match size == 0.0 || (1e-4..1e9).contains(&size) {
+        true => format!("{x}"),
+        false => format!("{x:e}"),
+    }
 }
 
 /// A number as formulas and labels show it: five digits.
 pub fn figure(x: f64) -> String {
-    format!("{}", five_digits(x))
+    written(five_digits(x))
 }
 
 /// A number as labels show it where steps count: five digits, or more where these do not tell steps apart.
@@ -264,7 +277,7 @@ pub fn figure_to(x: f64, step: f64) -> String {
     if (five_digits(x) - x).abs() <= 0.5 * step {
         return figure(x);
     }
-    format!("{}", rounded(x, step))
+    written(rounded(x, step))
 }
 
 /// The least and the largest number.
@@ -427,6 +440,9 @@ mod tests {
         assert_eq!(middle(&[20.0, 21.0, 23.0]), 21.3333);
         assert_eq!(five_digits(2.500_001), 2.5);
         assert_eq!(figure_to(2.500_001, 1e-4), "2.5");
+        assert_eq!(figure(6.000_1e-12), "6.0001e-12");
+        assert_eq!(amount(-2e9, "Hz"), "-2e9 Hz");
+        assert_eq!(amount(0.0, ""), "0");
         assert_eq!(figure_to(101_326.283_7, 1e-3), "101326.284");
     }
 

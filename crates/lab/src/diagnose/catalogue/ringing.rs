@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::building::{HIGHER, cell};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{amount, creeps, figure, grid};
+use super::modifiers::{creeps, figure, grid, in_unit};
 use super::sharp::{best, sharpened, sharpest};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 
@@ -48,7 +48,7 @@ pub(super) fn ringing(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let periods = sharpened(fitted, periods, &|period| rung(period, damping));
     let unit = fitted.time_unit();
     let variant = |period: f64| {
-        let shown = amount(figure(period), &unit);
+        let shown = in_unit(&figure(period), &unit);
         let label = format!("period {shown}, damping ratio {:.2}", damping);
         Variation::one(label, rung(period, damping)).shaped("T", period, &unit)
     };

@@ -2,7 +2,7 @@
 
 use super::building::{HIGHER, cell};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{amount, creeps, figure, grid};
+use super::modifiers::{creeps, figure, grid, in_unit};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 
@@ -30,14 +30,14 @@ pub(super) fn slewing(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
         unit => format!("{unit}/{}", fitted.time_unit()),
     };
     let term = |rate: f64| {
-        let (label, shown) = (fitted.label(column), amount(figure(rate), &unit));
+        let (label, shown) = (fitted.label(column), in_unit(&figure(rate), &unit));
         let text = format!("(slew({label}, {shown}) - {label})");
         let modifier = Modifier::new(behind(t, x, rate), text, fitted.step_unit(column));
         Term::new(Node::Column(column), modifier)
     };
     let rates = sharpened(fitted, rates, &term);
     let variant = |rate: f64| {
-        let label = format!("at most {}", amount(figure(rate), &unit));
+        let label = format!("at most {}", in_unit(&figure(rate), &unit));
         Variation::one(label, term(rate)).shaped("r", rate, &unit)
     };
     let variants = fitted.finer.times(rates).into_iter().map(variant);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::angles::harmonics;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{amount, correlation, figure, levels_of, map, mean, range, rounded};
+use super::modifiers::{correlation, figure, in_unit, levels_of, map, mean, range, rounded};
 use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
@@ -108,7 +108,7 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
     let bent = bent.map(|period| (*period, 2, ", with its half"));
     let pure = periods.iter().map(|period| (*period, 1, ""));
     let forms = pure.chain(bent).map(|(period, most, bent)| {
-        let shown = amount(figure(period), &unit);
+        let shown = in_unit(&figure(period), &unit);
         let waves = (1..=most).flat_map(|turns| {
             let phase = map(course, |x| f64::from(turns) * TAU * (x - least) / period);
             wave(&phase, &format!("{}*pi*{began}/({shown})", 2 * turns))

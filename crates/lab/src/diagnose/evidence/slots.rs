@@ -280,14 +280,18 @@ fn listed(space: &Space, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
         return ranked;
     };
     let kin = look_alikes::listed(space, rest, winner, &estimate(space, rest, winner));
-    let alone = ranked[0].probability >= ALONE;
-    let describes = |ranked: &Ranked| space.question.candidates[ranked.candidate].describes;
+    // What only describes a course takes nothing from a name.
+    let describes = |place: &usize| space.question.candidates[ranked[*place].candidate].describes;
+    let others = || (1..ranked.len()).filter(|place| !describes(place));
+    let rivals: f64 = others().map(|place| ranked[place].probability).sum();
+    let alone = ranked[0].probability >= ALONE * (ranked[0].probability + rivals);
+    let second = others().next().filter(|_| !alone);
     let mut sum = 0.0;
     ranked
         .into_iter()
         .enumerate()
         .filter(|(place, candidate)| {
-            let wanted = sum < CREDIBLE || (*place == 1 && !alone && !describes(candidate));
+            let wanted = sum < CREDIBLE || second == Some(*place);
             sum += candidate.probability;
             // An alias may be another order of its cause than the one that fits best.
             let is_kin = |one: &usize| space.question.same_cause(*one, candidate.candidate);

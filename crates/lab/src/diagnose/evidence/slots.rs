@@ -280,9 +280,9 @@ fn listed(space: &Space, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
         return ranked;
     };
     let kin = look_alikes::listed(space, rest, winner, &estimate(space, rest, winner));
-    // What only describes a course takes nothing from a name.
+    // What only describes a course takes nothing from a name, but from another description.
     let describes = |place: &usize| space.question.candidates[ranked[*place].candidate].describes;
-    let others = || (1..ranked.len()).filter(|place| !describes(place));
+    let others = || (1..ranked.len()).filter(|place| describes(&0) || !describes(place));
     let rivals: f64 = others().map(|place| ranked[place].probability).sum();
     let alone = ranked[0].probability >= ALONE * (ranked[0].probability + rivals);
     let second = others().next().filter(|_| !alone);

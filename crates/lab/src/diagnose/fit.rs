@@ -145,12 +145,20 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
     let mut best: Option<(f64, Fit)> = None;
     let mut failure = NoFit::NoStart;
     for start in starts(design) {
-        match problem.search(start) {
-            Ok((sum, fit)) if best.as_ref().is_none_or(|(least, _)| sum < 0.999 * least) => {
-                best = Some((sum, fit))
-            }
-            Ok(_) => {}
-            Err(why) => failure = why,
+        let is_better =
+            |sum: f64| (best.as_ref()).is_none_or(|(least, _): &(f64, Fit)| sum < 0.999 * least);
+        let is_lost = best.as_ref().is_some_and(|(_, fit)| fit.lost.is_some());
+        // Where a search came to no end, others have to show first that they get further.
+        let from = match is_lost {
+            true => (problem.glance(&start))
+                .filter(|(sum, _)| is_better(*sum))
+                .map(|(_, fit)| fit.unknowns),
+            false => Some(start),
+        };
+        match from.map(|from| problem.search(from)) {
+            Some(Ok((sum, fit))) if is_better(sum) => best = Some((sum, fit)),
+            Some(Err(why)) => failure = why,
+            _ => {}
         }
         // A model that is linear in its parameters has one minimum.
         if best.is_some() && is_linear {

@@ -353,3 +353,56 @@ fn an_output_may_follow_at_a_limited_rate() {
         "{label}"
     );
 }
+
+/// The frequency of a crystal is a parabola about 25 °C. About 0 °C its square alone is larger than all readings, whatever constant
+/// they have: the line of the model takes that away again.
+#[test]
+fn a_square_is_judged_beside_the_line_of_its_model() {
+    for offset in [0.0, 80.0, 500.0] {
+        let mut noise = Noise(3265);
+        let mut rows = "T [°C],df [Hz]\n".to_owned();
+        for row in 0..46 {
+            let temperature = -20.0 + 2.0 * f64::from(row);
+            let beyond = temperature - 25.0;
+            let df = offset - 0.034 * beyond * beyond + 0.3 * noise.normal();
+            let _ = writeln!(rows, "{temperature},{df:.3}");
+        }
+        let case = "equations = \"df = f0 + k*(T - 25 '°C')\"\n[columns]\nT = \"stimulus\"\ndf = \"output\"\n";
+        let found = diagnosed(&format!("crystal-{offset}"), &rows, case);
+        assert_eq!(
+            first_names(&found),
+            ["tempco-quadratic"],
+            "{offset} {found}"
+        );
+    }
+}
+
+/// A model without parameters has no columns beside which an effect could be judged, and no fault of the program.
+#[test]
+fn a_model_without_parameters_may_lack_a_scale() {
+    let mut noise = Noise(3259);
+    let mut rows = "truth [°C],reading [°C]\n".to_owned();
+    for row in 0..26 {
+        let truth = 2.0 * f64::from(row);
+        let reading = 1.002 * truth + 0.02 * noise.normal();
+        let _ = writeln!(rows, "{truth},{reading:.3}");
+    }
+    let case = "equations = \"reading = truth\"\n[columns]\nreading = \"output\"\ntruth = \"stimulus\"\n[noise]\nu = \"0.02 °C\"\n";
+    let found = diagnosed("no-parameters", &rows, case);
+    assert_eq!(first_names(&found)[0], "factor-of", "{found}");
+    assert!((size(&found, 0) - 0.002).abs() < 5e-4, "{found}");
+}
+
+/// Readings that the model gives to the last digit have no scatter, and nothing is left out.
+#[test]
+fn a_fit_without_residuals_is_an_answer() {
+    for slope in [0, 2] {
+        let mut rows = "x [V],y [V]\n".to_owned();
+        for row in 0..20 {
+            let _ = writeln!(rows, "{row},{}", 1 + slope * row);
+        }
+        let case = "equations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n";
+        let found = diagnosed(&format!("exact-{slope}"), &rows, case);
+        assert_eq!(found["verdict"], "none", "{found}");
+    }
+}

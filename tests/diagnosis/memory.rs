@@ -90,3 +90,68 @@ fn a_weak_effect_acts_like_a_name_and_a_strong_one_has_it() {
     assert_eq!(state(1.2), "acts-like");
     assert_eq!(state(6.0), "identified");
 }
+
+/// A stage with a backlash of 0.8 mm that was approached from below before the first row: one effect explains it, and in the middle
+/// of its gap it would have begun with rows that need another one.
+#[test]
+fn a_play_that_is_engaged_at_the_start_is_one_effect() {
+    let mut noise = Noise(3135);
+    let course = (0..41).chain((0..40).rev()).chain(1..=20).chain(8..20);
+    let mut rows = "n,x [mm],y [mm]\n".to_owned();
+    let mut behind: Option<f64> = None;
+    for (row, step) in course.enumerate() {
+        let x = 0.25 * f64::from(step);
+        let now = behind.map_or(x - 0.4, |behind| behind.max(x - 0.4).min(x + 0.4));
+        behind = Some(now);
+        let y = 0.05 + 1.003 * now + 0.02 * noise.normal();
+        let _ = writeln!(rows, "{row},{x},{y:.4}");
+    }
+    let case =
+        "equations = \"y = a + b*x\"\n[columns]\nn = \"order\"\nx = \"stimulus\"\ny = \"output\"\n";
+    let found = diagnosed_with("play-engaged", &rows, case);
+    let effects = found["effects"].as_array().expect("effects");
+    assert_eq!(effects.len(), 1, "{found:#}");
+    let names = named(&found);
+    assert!(
+        names
+            .iter()
+            .any(|name| name == "hysteresis" || name == "play"),
+        "{names:?}"
+    );
+    let shape = &found["improved"]["shapes"][0];
+    let [width, u] = ["estimate", "u"].map(|key| shape[key].as_f64().expect("the width"));
+    assert!((width - 0.8).abs() < 4.0 * u && u < 0.1, "{width} ± {u}");
+}
+
+/// A filter of 50 ms behind a rate that turns within 3 s, at 50 readings a second: far quicker than half a mean of the recording.
+#[test]
+fn a_lag_within_the_means_of_a_long_recording_is_found() {
+    let mut noise = Noise(3150);
+    let (tau, rows) = (0.05, 20_000);
+    let mut text = "t [s],rate [deg/s],out [mV]\n".to_owned();
+    for row in 0..rows {
+        let t = 0.02 * f64::from(row);
+        // What a first-order filter makes of a sine: its response at this frequency.
+        let sines = [(50.0, 3.0), (20.0, 11.0)].map(|(size, period)| {
+            let w = std::f64::consts::TAU / period;
+            let late = libm::atan(w * tau);
+            let less = 1.0 / libm::sqrt(1.0 + w * tau * w * tau);
+            [
+                size * libm::sin(w * t),
+                size * less * libm::sin(w * t - late),
+            ]
+        });
+        let [rate, filtered] = [0, 1].map(|at| sines[0][at] + sines[1][at]);
+        let out = 1.0 + 0.4 * filtered + 0.3 * noise.normal();
+        let _ = writeln!(text, "{t:.2},{rate:.5},{out:.4}");
+    }
+    let case = "equations = \"out = b + s*rate\"\n[columns]\nt = \"time\"\nrate = \"stimulus\"\nout = \"output\"\n";
+    let found = diagnosed_with("quick-lag", &text, case);
+    assert_eq!(named(&found)[0], "lag", "{found:#}");
+    let shape = &found["improved"]["shapes"][0];
+    let [found_tau, u] = ["estimate", "u"].map(|key| shape[key].as_f64().expect("τ"));
+    assert!(
+        (found_tau - tau).abs() < 4.0 * u && u < 0.02,
+        "{found_tau} ± {u}"
+    );
+}

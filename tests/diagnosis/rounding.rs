@@ -160,3 +160,23 @@ fn an_effect_is_found_beside_estimated_rounding() {
     let is_rounding = |name: &String| name == "quantisation";
     assert!(names[1..].iter().all(is_rounding), "{found}");
 }
+
+/// What was left out of a claim is in the improved experiment: the resolution of the output, with which recording and model agree.
+#[test]
+fn the_improved_experiment_has_the_resolution() {
+    let folder = folder("rounding-improved");
+    let rows = recording(&mut Noise(71), STEP / 8.0, |_, _| 0.0);
+    std::fs::write(folder.join("recording.csv"), rows).expect("written");
+    let claim = case(&format!("u = {}", STEP / 8.0));
+    let text = format!("recording = \"recording.csv\"\n{claim}");
+    std::fs::write(folder.join("case.toml"), text).expect("written");
+    let (good, said) = gumption(
+        &folder,
+        &["diagnose", "case.toml", "--improved", "improved"],
+    );
+    assert!(good, "{said}");
+    let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);
+    assert_eq!(again["verdict"], "none", "{again}");
+    let improved = std::fs::read_to_string(folder.join("improved/case.toml")).expect("there");
+    assert!(improved.contains("resolution = 1e-2"), "{improved}");
+}

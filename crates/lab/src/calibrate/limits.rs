@@ -92,7 +92,7 @@ impl Others {
     ) -> Option<Others> {
         let count = there.len();
         let dof = dof - count as f64;
-        if count < 2 || !(dof > 0.0) {
+        if count < 2 || dof.is_nan() || dof <= 0.0 {
             return None;
         }
         let left = DMatrix::from_fn(count, count, |i, j| {
@@ -120,7 +120,7 @@ impl Others {
     fn tell_apart(&self, step: f64) -> f64 {
         let (low, high) = (self.residuals.imin(), self.residuals.imax());
         let beyond = self.residuals[high] - self.residuals[low] - step;
-        if !(beyond > 0.0) {
+        if beyond.is_nan() || beyond <= 0.0 {
             return 1.0;
         }
         let v = &self.covariance;

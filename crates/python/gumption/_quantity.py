@@ -423,6 +423,19 @@ def _is_exact(known: Mapping[str, Any]) -> bool:
     return set(known) <= {"value", "unit"}
 
 
+def is_exact(one: Quantity) -> bool:
+    """Whether nothing is in doubt of a quantity of which something is known."""
+    return one._known is not None and _is_exact(one._known)
+
+
+def as_number(one: Quantity) -> Quantity:
+    """Its number in its unit, which is what a package without units knows of it."""
+    between = units.interval(one._units)
+    if between:
+        return (one - quantity(0, unit=units.written(one._units))) / quantity(1, unit=between)
+    return one / quantity(1, unit=units.written(one._units)) if one._units else one
+
+
 def correlated(
     values: Sequence[float] | np.ndarray,
     u: Sequence[float] | np.ndarray,

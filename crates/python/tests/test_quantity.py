@@ -338,3 +338,47 @@ def test_quantities_become_numbers_of_gtc():
 def test_a_sum_begins_with_nothing():
     total = sum([quantity(1.0, 0.1, "V"), quantity(2.0, 0.1, "V")])
     assert math.isclose(total.u, 0.1 * math.sqrt(2)) and total.unit == "V"
+
+
+@pytest.mark.parametrize("package", ["uncertainties", "GTC"])
+@pytest.mark.parametrize("unit", [None, "V", "°C"])
+def test_what_was_handed_over_comes_back(package, unit):
+    pytest.importorskip(package)
+
+    def there(one):
+        return one.to_uncertainties() if package == "uncertainties" else one.to_gtc()
+
+    def assert_same(one, other):
+        assert math.isclose((one - other).u or 0.0, 0, abs_tol=1e-15 * other.u)
+
+    for x in (quantity(2.0, 0.1, unit), quantity(2.0, 0.1, unit, dof=5), quantity(unit=unit, readings=[1.0, 2.0, 4.0])):
+        assert_same(quantity(there(x)), quantity(there(x)))
+        if unit is None:
+            assert quantity(there(x)).nu == x.nu and math.isclose((x - there(x)).u, 0, abs_tol=1e-15)
+            assert math.isclose((x + there(x)).u, 2 * x.u) and math.isclose((there(x) + x).u, 2 * x.u)
+        # Through what rests on it.
+        product = there(x) * 3
+        assert_same(quantity(product), 3 * quantity(there(x)))
+    if unit == "V":
+        assert math.isclose((x / quantity(1, unit="V") - there(x)).u, 0, abs_tol=1e-15)
+
+
+@pytest.mark.parametrize("r", [0.5, -0.9, 1.0])
+def test_correlated_quantities_come_back(r):
+    pytest.importorskip("uncertainties")
+    pytest.importorskip("GTC")
+    a, b = correlated([1.0, 2.0], u=[0.1, 0.2], correlation=[[1, r], [r, 1]])
+    for back in (lambda one: one.to_uncertainties(), lambda one: one.to_gtc()):
+        assert math.isclose((a - back(a)).u, 0, abs_tol=1e-15)
+        assert math.isclose((a + back(b)).u, (a + b).u) and math.isclose((back(a) * 2 + b).u, (2 * a + b).u)
+
+
+def test_a_number_that_was_changed_is_refused():
+    uncertainties = pytest.importorskip("uncertainties")
+    number = uncertainties.ufloat(1.0, 0.1)
+    assert quantity(number).u == 0.1
+    number.std_dev = 0.2
+    with pytest.raises(ValueError, match="was 0.1 when it became a quantity"):
+        quantity(number)
+
+

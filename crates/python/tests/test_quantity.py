@@ -382,3 +382,7 @@ def test_a_number_that_was_changed_is_refused():
         quantity(number)
 
 
+def test_numbers_that_python_has_no_type_for():
+    long = np.longdouble("1.5")
+    assert quantity(long, np.longdouble(0.1)).y == 1.5 and quantity(readings=np.array([1, 2, 3], np.longdouble)).y == 2
+    assert f"{quantity(1.234, 0.0123):S}" == "1.234(12)"

@@ -103,6 +103,28 @@ def test_trials_are_those_of_the_row(page):
     assert part.to_pylist() == whole.slice(2, 1).to_pylist() and part["seed"].type == pa.int64()
 
 
+LONG = ["a label of more than twelve bytes", "b"]
+
+
+def labels(table: object) -> list[str]:
+    return pa.record_batch(gumption.arrow_batch(BUDGET, table))["label"].to_pylist()
+
+
+BUDGET = {"measurand": {"y": {"model": "R"}}, "input": {"R": {"value": 1, "u": 0.1}}}
+
+
+def test_texts_by_views():
+    views = pa.array(LONG, pa.string_view())
+    for table in (pa.table({"label": views, "R": [1.0, None]}), pa.record_batch({"label": views, "R": [1.0, None]})):
+        assert labels(table) == LONG
+        assert gumption.batch(BUDGET, table)["label"].to_pylist() == LONG
+    assert labels(pa.table({"label": views, "R": [1.0, 2.0]}).to_reader()) == LONG
+    polars = pytest.importorskip("polars")
+    frame = polars.DataFrame({"label": LONG, "R": [1.0, None]})
+    assert labels(frame) == LONG and labels(frame.head(0)) == []
+    assert gumption.batch(BUDGET, frame)["label"].to_list() == LONG
+
+
 def test_polars(page, expected):
     pytest.importorskip("polars")
     assert_same(run("Polars", page).to_arrow().cast(expected.schema), expected)

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_format::csv;
-use gumption_format::files::write::Replacing;
-use gumption_format::files::{Files, Growing};
+use gumption_format::files::write::{Replacing, Unwritten, Why};
+use gumption_format::files::{FileId, Files, Growing};
 use gumption_gum::batch::{self, Lot, Plan};
 use gumption_gum::budget::{BatchFile, Profile};
 use gumption_gum::propagate::Progress;
@@ -48,6 +48,13 @@ impl Rows<'_> {
         match self {
             Rows::File(source) => source.with(|files, path| files.length(path)).unwrap_or(1),
             Rows::Columns(columns) => columns.rows() as u64,
+        }
+    }
+
+    fn on_disk(&self) -> Option<&Path> {
+        match self {
+            Rows::File(source) => source.on_disk(),
+            Rows::Columns(_) => None,
         }
     }
 
@@ -99,11 +106,19 @@ pub(crate) fn batch_of(
         keep,
         progress: Progress::default(),
     };
+    let rows = Rows::of(&mut table)?;
+    if let Some((path, _)) = &output {
+        let read = [source.on_disk(), rows.on_disk()];
+        if read.into_iter().flatten().any(|read| is_same(read, path)) {
+            let (path, why) = (path.clone(), Why::Read);
+            return Err(unwritten(Unwritten { path, why }, language));
+        }
+    }
     let (shares, contributions) = more;
     let batch = Batch {
         source: &source,
         profile: settings.profile()?,
-        rows: Rows::of(&mut table)?,
+        rows,
         columns: Columns {
             shares,
             contributions,
@@ -126,6 +141,12 @@ pub(crate) fn batch_of(
             batch.into_file(py, progress.as_ref(), sink)
         }
     }
+}
+
+/// Whether both are names of one file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let both = FileId::of(one).zip(FileId::of(other));
+    both.is_some_and(|(one, other)| one.is(&other))
 }
 
 /// A budget and the rows for which it is evaluated.

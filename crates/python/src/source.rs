@@ -29,6 +29,11 @@ impl Source {
         &self.path
     }
 
+    /// Where it is on the disk, if it is there.
+    pub fn on_disk(&self) -> Option<&Path> {
+        self.files.is_none().then_some(&*self.path)
+    }
+
     /// Hands the files to a reader.
     pub fn with<T>(&self, read: impl FnOnce(Files<'_>, &Path) -> T) -> T {
         match &self.files {

@@ -131,6 +131,20 @@ def test_a_file_that_would_hold_something_else_is_refused(tmp_path):
         gumption.batch(budget, tmp_path / "devices.csv")
 
 
+def test_what_is_read_is_never_overwritten(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    budget, rows = BUDGET.format(readings="[1, 2]", R=1, u=1), "R\n100\n"
+    (tmp_path / "budget.toml").write_text(budget)
+    (tmp_path / "rows.csv").write_text(rows)
+    (tmp_path / "also.csv").symlink_to(tmp_path / "rows.csv")
+    (tmp_path / "budget.csv").symlink_to(tmp_path / "budget.toml")
+    for name in ("rows.csv", "./rows.csv", tmp_path / "also.csv", "budget.csv"):
+        with pytest.raises(OSError, match="never overwritten"):
+            gumption.batch("budget.toml", "rows.csv", output=name, replace=True)
+    assert (tmp_path / "budget.toml").read_text() == budget and (tmp_path / "rows.csv").read_text() == rows
+    assert gumption.batch("budget.toml", "rows.csv", output="out.csv", replace=True)["rows"] == 1
+
+
 def test_a_list_with_a_gap_is_a_fault_of_its_row():
     budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
     rows = [[1.0, None, 1.2], [1.0, "much"], [1.0, 1.2]]

@@ -149,12 +149,15 @@ def cells(column: Any) -> Any:
     digits."""
     array = column.to_numpy() if hasattr(column, "to_numpy") else column
     if isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 1:
-        return np.ascontiguousarray(array)
+        # What is masked is missing, whatever stands below the mask.
+        return np.ascontiguousarray(np.ma.filled(array, np.nan))
     return [_field(one) for one in column]
 
 
 def _element(value: Any) -> str:
     """A number of a list; what is none is for the row to refuse."""
+    if value is np.ma.masked:
+        return "nan"
     try:
         return repr(float(value))
     except (TypeError, ValueError):
@@ -164,9 +167,11 @@ def _element(value: Any) -> str:
 def _field(value: Any) -> str:
     if isinstance(value, str):
         return value
+    if value is None or value is np.ma.masked:
+        return ""
     if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
         return f"[{', '.join(map(_element, value))}]"
-    # What is missing: None, nan, and what pandas calls NaT and NA.
-    if value is None or str(value) in ("nan", "NaT", "<NA>"):
+    # What is missing beside these: nan, and what pandas calls NaT and NA.
+    if str(value) in ("nan", "NaT", "<NA>"):
         return ""
     return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)

@@ -145,6 +145,16 @@ def test_what_is_read_is_never_overwritten(tmp_path, monkeypatch):
     assert gumption.batch("budget.toml", "rows.csv", output="out.csv", replace=True)["rows"] == 1
 
 
+def test_masked_rows_are_missing():
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    for kind in (float, int):
+        masked = np.ma.array([100, 99], mask=[0, 1], dtype=kind)
+        found = gumption.batch(budget, {"R": masked})
+        assert [bool(one) for one in found["error"]] == [False, True] and found["I [mA]"][0] == 15
+    fleet = gumption.fleet({"y": np.ma.array([1.0, 1.2, 99.0], mask=[0, 0, 1]), "u(y)": [0.1] * 3, "k(y)": [2.0] * 3})
+    assert fleet.table()["mean"][0] == pytest.approx(1.1)
+
+
 def test_a_list_with_a_gap_is_a_fault_of_its_row():
     budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
     rows = [[1.0, None, 1.2], [1.0, "much"], [1.0, 1.2]]

@@ -145,6 +145,15 @@ def test_what_is_read_is_never_overwritten(tmp_path, monkeypatch):
     assert gumption.batch("budget.toml", "rows.csv", output="out.csv", replace=True)["rows"] == 1
 
 
+@pytest.mark.parametrize("name", ["error", "findings", "seed", "I", "I [mA]", "u(I) [mA]", "share(I, R)", "label"])
+def test_what_is_kept_has_a_name_of_its_own(name):
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    with pytest.raises(gumption.Refused, match="of their own") as refused:
+        gumption.batch(budget, {"R": [1.0], name: ["a"]}, keep=[name])
+    assert refused.value.faults[0].mend
+    assert gumption.batch(budget, {"R": [1.0], "u(X)": ["a"]}, keep=["u(X)"])["u(X)"] == ["a"]
+
+
 def test_masked_rows_are_missing():
     budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
     for kind in (float, int):

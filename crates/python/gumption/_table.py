@@ -7,7 +7,7 @@ import html
 import importlib
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -56,18 +56,42 @@ def _shown(cell: Any) -> str:
     return "" if cell is None else str(cell)
 
 
-def like(given: Any, found: Table, rows: int) -> Any:
-    """What was found of a table: of a frame a frame, of a table of Arrow one of Arrow, else columns."""
-    library = _library(given)
-    if library not in _FRAMES and _arrow.is_of(given):
-        batch = _arrow.record_batch(found, rows)
-        return batch if library != "pyarrow" else importlib.import_module("pyarrow").table(batch)
+def like(given: Any, found: Table, rows: int, kept: Sequence[str]) -> Any:
+    """What was found of a table: of a frame a frame with its index, of a table of pyarrow one of pyarrow, else columns. The columns
+    that are kept, and labels, are those that were given, of whatever type."""
+    library, own = _library(given), _carried(given, found, kept)
+    if library == "pyarrow":
+        arrow = importlib.import_module("pyarrow")
+        table = arrow.table(_arrow.record_batch(found, rows))
+        for name, column in own.items():
+            table = table.set_column(table.column_names.index(name), name, column)
+        return table
     for name, column in found.items():
         if column is None:
             found[name] = [""] * rows
-    if library not in _FRAMES:
-        return found
-    return found.to_pandas() if library == "pandas" else found.to_polars()
+    if library == "pandas":
+        frame = found.to_pandas().set_axis(given.index, axis="index")
+        # Series are put where their index is, which may have something twice.
+        return frame.assign(**{name: column.array for name, column in own.items()})
+    found.update(own)
+    return found.to_polars() if library == "polars" else found
+
+
+def _carried(given: Any, found: Table, kept: Sequence[str]) -> dict[str, Any]:
+    """The columns of results that are columns of a table in memory: those that are kept, and labels, unless one is missing,
+    in whose place is the number of its row."""
+    # What can be gone through once is gone; Series in a dict would be put where their index is.
+    attribute = {"pandas": "columns", "polars": "columns", "pyarrow": "column_names"}.get(_library(given), "")
+    names = list(given) if isinstance(given, Mapping) else getattr(given, attribute, ())
+    columns = {name: given[name] for name in names if not isinstance(given[name], Iterator)}
+    labels = ["label"] if all(_field(one).strip() for one in columns.get("label", ())) else []
+    # What is kept may be named without its unit.
+    wanted = {*kept, *labels}
+    is_wanted = {name: name in wanted or name.partition(" [")[0] in wanted for name in columns}
+    carried = {name: column for name, column in columns.items() if is_wanted[name] and name in found}
+    if not isinstance(given, Mapping):
+        return carried
+    return {name: one if isinstance(one, (list, np.ndarray)) else list(one) for name, one in carried.items()}
 
 
 _FRAMES = ("pandas", "polars")

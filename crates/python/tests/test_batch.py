@@ -1,5 +1,6 @@
 """A batch gives every row what the budget gives with the row written into it."""
 
+import datetime
 import math
 
 import gumption
@@ -162,6 +163,49 @@ def test_masked_rows_are_missing():
         assert [bool(one) for one in found["error"]] == [False, True] and found["I [mA]"][0] == 15
     fleet = gumption.fleet({"y": np.ma.array([1.0, 1.2, 99.0], mask=[0, 0, 1]), "u(y)": [0.1] * 3, "k(y)": [2.0] * 3})
     assert fleet.table()["mean"][0] == pytest.approx(1.1)
+
+
+def test_results_have_the_index_of_their_frame():
+    pandas = pytest.importorskip("pandas")
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    rows = {"R": [300.0, 100.0, 200.0]}
+    pairs = pandas.MultiIndex.from_tuples([("a", 1), ("a", 2), ("b", 1)])
+    for index in (None, [5, 9, 7], ["p", "p", "q"], pairs, pandas.to_datetime(["2026-01-01"] * 3)):
+        frame = pandas.DataFrame(rows, index=index)
+        found = gumption.batch(budget, frame)
+        assert found.index.equals(frame.index) and list(found["I [mA]"]) == [5.0, 15.0, 7.5]
+    frame = pandas.DataFrame(rows).sort_values("R")
+    frame["I"] = gumption.batch(budget, frame)["I [mA]"]
+    assert list(frame["I"]) == [15.0, 7.5, 5.0]
+    some = pandas.DataFrame(rows)[1:]
+    assert list(gumption.batch(budget, some).index) == [1, 2]
+
+
+def test_what_is_kept_has_its_type():
+    budget, day = BUDGET.format(readings="[1, 2]", R=1, u=1), datetime.date(2026, 3, 1)
+    rows = {"label": [7, 8], "R": [100.0, 200.0], "n": [1, 2], "day": [day, None], "type": ["A", "B"]}
+    keep = ["n", "day", "type"]
+    plain = gumption.batch(budget, rows, keep=keep)
+    assert all(plain[name] == rows[name] for name in (*keep, "label"))
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(rows, index=[3, 3]).astype({"type": "category", "n": "Int64"})
+    found = gumption.batch(budget, frame, keep=keep)
+    assert all(found[name].dtype == frame[name].dtype for name in (*keep, "label"))
+    assert len(frame.merge(found, on="label")) == 2 and list(found["label"]) == [7, 8]
+    polars = pytest.importorskip("polars")
+    frame = polars.DataFrame(rows)
+    found = gumption.batch(budget, frame, keep=keep)
+    assert all(found[name].equals(frame[name]) for name in (*keep, "label"))
+    arrow = pytest.importorskip("pyarrow")
+    table = arrow.table(rows)
+    found = gumption.batch(budget, table, keep=keep)
+    assert all(found[name].equals(table[name]) for name in (*keep, "label"))
+    # What has no label is called by its number.
+    assert gumption.batch(budget, {"R": [1.0, 2.0], "label": ["a", None]})["label"] == ["a", "2"]
+    mass = gumption.batch(budget, {"R": [1.0, 2.0], "mass [g]": [3, 4]}, keep="mass")
+    assert mass["mass [g]"] == [3, 4]
+    once = gumption.batch(budget, {"R": [1.0, 2.0], "type": (one for one in "AB")}, keep="type")
+    assert once["type"] == ["A", "B"]
 
 
 def test_a_list_with_a_gap_is_a_fault_of_its_row():

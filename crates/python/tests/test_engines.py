@@ -125,6 +125,24 @@ def test_texts_by_views():
     assert gumption.batch(BUDGET, frame)["label"].to_list() == LONG
 
 
+def test_columns_are_kept():
+    table = pa.table({"R": [1.0, 2.0], "type": ["A", None], "n": [3, 4]})
+    found = pa.record_batch(gumption.arrow_batch(BUDGET, table, keep=["type", "n"]))
+    assert found["type"].to_pylist() == ["A", None] and found["n"].to_pylist() == ["3", "4"]
+
+
+class Relation:
+    """Of an engine that has the interface of Arrow and no frames."""
+
+    def __init__(self, table: pa.Table) -> None:
+        self.__arrow_c_stream__ = table.__arrow_c_stream__
+
+
+def test_of_other_engines_there_are_columns():
+    found = gumption.batch(BUDGET, Relation(pa.table({"label": LONG, "R": [1.0, 2.0]})))
+    assert isinstance(found, gumption.Table) and found["label"] == LONG and list(found["y"]) == [1.0, 2.0]
+
+
 def test_polars(page, expected):
     pytest.importorskip("polars")
     assert_same(run("Polars", page).to_arrow().cast(expected.schema), expected)

@@ -143,6 +143,13 @@ def test_of_other_engines_there_are_columns():
     assert isinstance(found, gumption.Table) and found["label"] == LONG and list(found["y"]) == [1.0, 2.0]
 
 
+def test_what_an_engine_gives_is_a_fleet():
+    table = pa.table({"label": ["a", "b", "c"], "R": [1.0, 1.1, 1.2]})
+    budget = {**BUDGET, "measurand": {"y": {"model": "R", "unit": "V"}}, "input": {"R": {"value": 1, "u": 0.1, "unit": "V"}}}
+    found = pa.table(gumption.arrow_batch(budget, table))
+    assert gumption.fleet(found).table()["values"][0] == 3
+
+
 def test_polars(page, expected):
     pytest.importorskip("polars")
     assert_same(run("Polars", page).to_arrow().cast(expected.schema), expected)

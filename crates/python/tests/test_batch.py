@@ -208,6 +208,15 @@ def test_what_is_kept_has_its_type():
     assert once["type"] == ["A", "B"]
 
 
+def test_tables_in_utf_16(tmp_path):
+    budget, text = BUDGET.format(readings="[1, 2]", R=1, u=1), "label\tR [Ω]\r\n电阻\t100\r\n"
+    expected = gumption.batch(budget, {"label": ["电阻"], "R [Ω]": [100.0]})
+    for encoding in ("utf-16", "utf-16-le", "utf-16-be"):
+        (tmp_path / "rows.csv").write_bytes(text.encode(encoding))
+        found = gumption.batch(budget, tmp_path / "rows.csv")
+        assert found["label"] == ["电阻"] and found["I [mA]"] == expected["I [mA]"] and found["error"] == [""]
+
+
 def test_a_list_with_a_gap_is_a_fault_of_its_row():
     budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
     rows = [[1.0, None, 1.2], [1.0, "much"], [1.0, 1.2]]

@@ -142,6 +142,20 @@ def test_masked_values_are_no_values():
     assert math.isclose(whole.y, 7 / 3)
 
 
+def test_a_budget_in_memory_says_what_it_needs(tmp_path, monkeypatch):
+    (tmp_path / "rr.csv").write_text("U\n1.0\n1.2\n")
+    monkeypatch.chdir(tmp_path)
+    budget = of_x(readings={"file": "rr.csv", "column": "U"})
+    with pytest.raises(gumption.Refused, match="no file rr.csv in what was given in memory") as refused:
+        gumption.evaluate(budget)
+    assert 'files={"rr.csv"' in refused.value.faults[0].mend
+    for name in ("rr.csv", Path("rr.csv")):
+        assert gumption.evaluate(budget, files={name: Path("rr.csv").read_bytes()})["y"].y == 1.1
+    experiment = 'recording = { file = "rr.csv", average = "none" }\nequations = "U = K*omega + b"\n'
+    with pytest.raises(gumption.Refused, match='files={"rr.csv"'):
+        gumption.calibrate(experiment)
+
+
 def test_paths_stand_in_a_dict():
     readings = {"readings": {"file": Path("readings.csv"), "column": "U"}}
     budget = {"measurand": {"y": {"model": "x"}}, "input": {"x": readings}}

@@ -1,5 +1,6 @@
 //! A budget for every row of a table.
 
+use std::ffi::CString;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -14,6 +15,7 @@ use gumption_gum::budget::{BatchFile, Profile};
 use gumption_gum::propagate::Progress;
 use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
 use numpy::IntoPyArray;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use crate::compute::Settings;
@@ -129,6 +131,7 @@ pub(crate) fn batch_of(
         read: AtomicU64::new(0),
         language,
     };
+    batch.warn(py)?;
     match output {
         None => batch.into_columns(py, progress.as_ref()),
         Some((path, replace)) => {
@@ -162,6 +165,17 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
+    /// Warns of what the columns do not say.
+    fn warn(&self, py: Python<'_>) -> PyResult<()> {
+        let caveat = self.source.with(|files, path| {
+            let file = BatchFile::open(files, path, self.profile).ok()?;
+            self.columns.caveat(&file)
+        });
+        let Some(caveat) = caveat else { return Ok(()) };
+        let words = CString::new(caveat.in_language(self.language))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &words, 1)
+    }
+
     fn into_columns(self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<Evaluated> {
         let columns = self.columns;
         let work = |files: Files<'_>, path: &Path| {

@@ -2,6 +2,7 @@
 
 import datetime
 import math
+import warnings
 
 import gumption
 import numpy as np
@@ -206,6 +207,16 @@ def test_what_is_kept_has_its_type():
     assert mass["mass [g]"] == [3, 4]
     once = gumption.batch(budget, {"R": [1.0, 2.0], "type": (one for one in "AB")}, keep="type")
     assert once["type"] == ["A", "B"]
+
+
+def test_contributions_that_correlate_are_told():
+    budget = BUDGET.format(readings="[1.0, 1.1, 1.3, 1.2]", R=1, u=1) + '[[correlation]]\nbetween = ["V", "R"]\nr = 0.5\n'
+    with pytest.warns(UserWarning, match="contributions of V, R correlate"):
+        gumption.batch(budget, {"R": [100.0]}, contributions=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        gumption.batch(budget, {"R": [100.0]})
+        gumption.batch(budget.partition("[[")[0], {"R": [100.0]}, contributions=True)
 
 
 def test_tables_in_utf_16(tmp_path):

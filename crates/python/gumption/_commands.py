@@ -162,6 +162,9 @@ def fleet(
     the one that names the devices (``label``, where nothing is said), ``reference`` the one of reference values, ``X`` or
     ``y=X``. ``result.groups`` and ``result["y"]`` have the figures, ``result.table()`` those of each group.
     """
+    for name, one in (("date", date), ("device", device)):
+        if one is not None and not isinstance(one, str):
+            raise TypeError(f"{name}: the name of a column is needed, not {one!r}")
     wanted = {
         "by": several(by),
         "date": date,

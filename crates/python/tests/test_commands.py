@@ -156,6 +156,12 @@ def test_a_budget_in_memory_says_what_it_needs(tmp_path, monkeypatch):
         gumption.calibrate(experiment)
 
 
+def test_tables_have_arrays():
+    table = gumption.evaluate(RESISTOR, trials=2000, profile="JJF").table()
+    assert isinstance(table["u"], np.ndarray) and table["measurand"] == ["I"] and table["label"] == [None]
+    assert np.isnan(table["nu"][0]) and isinstance(table.copy(), gumption.Table)
+
+
 def test_paths_stand_in_a_dict():
     readings = {"readings": {"file": Path("readings.csv"), "column": "U"}}
     budget = {"measurand": {"y": {"model": "x"}}, "input": {"x": readings}}

@@ -116,6 +116,20 @@ def read(text: str, texts: Sequence[str]) -> Table:
     return columns
 
 
+def with_faulty(table: Table, names: Sequence[str], faulty: Mapping[str, str]) -> Table:
+    """Rows of these names, of which some have nothing but an error and the others are in the table, in this order."""
+    rows = {name: at for at, name in enumerate(name for name in names if name not in faulty)}
+    places = [rows.get(name) for name in names]
+    whole = Table()
+    for column, cells in table.items():
+        if isinstance(cells, np.ndarray):
+            whole[column] = np.array([np.nan if at is None else cells[at] for at in places])
+        else:
+            whole[column] = ["" if at is None else cells[at] for at in places]
+    errors = whole.get("error", [""] * len(names))
+    return Table(whole | {"label": list(names), "error": [faulty.get(name, why) for name, why in zip(names, errors)]})
+
+
 def written(table: Any) -> str:
     """The comma-separated values of a frame or of columns by their names."""
     columns = dict(given(table))

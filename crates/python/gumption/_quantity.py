@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from decimal import Decimal
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NoReturn, Union, cast
 from uuid import uuid4
@@ -24,7 +25,7 @@ from ._faults import Refused
 from ._result import Measurand, Result
 from ._units import Units
 
-Operand = Union["Quantity", float, Decimal]
+Operand = Union["Quantity", float, Decimal, Fraction]
 """What arithmetic takes beside numbers of ``uncertainties`` and ``GTC``, which say nothing to a checker of types."""
 
 _DIGITS_OF_U = re.compile(r"(?:\.([1-9]))?u(S?)|(S)")
@@ -238,6 +239,7 @@ class Quantity(Lasting):
         if method != "__call__" or settings or ufunc.__name__ not in _OPERATIONS:
             return NotImplemented
         if any(isinstance(one, np.ndarray) and one.ndim for one in given):
+            _refuse_masked(*given)
             arrays = np.broadcast_arrays(*(np.asarray(one, dtype=object) for one in given))
             flat = [_formed(ufunc.__name__, *ones) for ones in zip(*(array.flat for array in arrays))]
             return np.array(flat, dtype=object).reshape(arrays[0].shape)
@@ -444,6 +446,7 @@ def correlated(
     names: Sequence[str] | None = None,
 ) -> list[Quantity]:
     """Quantities with standard uncertainties and a matrix of correlation coefficients."""
+    _refuse_masked(correlation)
     matrix = np.asarray(correlation, dtype=float)
     of_each = [unit] * len(values) if unit is None or isinstance(unit, str) else list(unit)
     named = [None] * len(values) if names is None else list(names)
@@ -510,6 +513,11 @@ def _suit_points(operation: str, given: tuple[Any, ...]) -> None:
         raise ValueError(
             f"{bare[0]:g} has no unit: write quantity({bare[0]:g}, unit='{between}'), a difference, or quantity({bare[0]:g}, unit='{unit}')"
         )
+
+
+def _refuse_masked(*arrays: Any) -> None:
+    if any(np.ma.is_masked(one) for one in arrays):
+        raise TypeError("some values are masked, and would be taken for values: take those that are there, x.compressed()")
 
 
 def _taken(one: Any) -> Any:

@@ -382,6 +382,20 @@ def test_a_number_that_was_changed_is_refused():
         quantity(number)
 
 
+def test_what_is_masked_is_no_number():
+    x, masked = quantity(2.0, 0.1), np.ma.array([1.0, 99.0], mask=[0, 1])
+    # Arithmetic of masked arrays keeps the mask.
+    assert (masked * x).mask.tolist() == (x * masked).mask.tolist() == [False, True]
+    for wrong in (
+        lambda: np.multiply(x, masked),
+        lambda: correlated([1.0, 2.0], u=[0.1, 0.2], correlation=np.ma.array(np.eye(2), mask=np.eye(2) == 0)),
+        lambda: correlated(masked, u=[0.1, 0.2], correlation=np.eye(2)),
+        lambda: quantity(masked[1], 0.1),
+    ):
+        with pytest.raises(TypeError, match="masked"):
+            wrong()
+
+
 def test_numbers_that_python_has_no_type_for():
     long = np.longdouble("1.5")
     assert quantity(long, np.longdouble(0.1)).y == 1.5 and quantity(readings=np.array([1, 2, 3], np.longdouble)).y == 2

@@ -122,6 +122,9 @@ fn evaluated(args: &Args) -> Result<Count, Outcome> {
         name: &name,
         args,
     };
+    if let Some(caveat) = work.columns().caveat(&file) {
+        output::note(&caveat.in_language(args.lang), args.lang);
+    }
     match to_parquet {
         #[cfg(feature = "parquet")]
         true => parquet::written(work, sink),

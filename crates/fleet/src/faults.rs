@@ -10,7 +10,9 @@ codes! {
     NO_REFERENCE = "F0103", "a reference has no uncertainty", "参考值缺少不确定度",
         "E_n weighs a difference with the expanded uncertainties of both of its sides. Beside the column `X` of a reference stands `U(X)`, or `u(X)` with `k(X)`; 0 for a value that is exact. With several measurands, `--reference y=X` says whose reference it is.";
     SIGN = "F0104", "an uncertainty has a sign", "不确定度带有负号",
-        "Standard and expanded uncertainties, and coverage factors, are not negative, and degrees of freedom are greater than zero. An empty field of ν stands for infinitely many.";
+        "Standard and expanded uncertainties are not negative, coverage factors and degrees of freedom are greater than zero. An empty field of ν stands for infinitely many.";
+    DISAGREE = "F0105", "an expanded uncertainty is not k·u", "扩展不确定度不等于 k·u",
+        "Where all of `u(y)`, `k(y)` and `U(y)` are given, U = k·u, within what their last digits are rounded by. A U that was changed while u was not, or a u in another unit, contradicts it. Two of the three are enough.";
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What the columns of a table of results hold, by their names.
 
+use std::iter::once;
 use std::ops::Range;
 
 use gumption_core::quantity::{Conversion, Unit, UnitTable};
@@ -9,6 +10,9 @@ use gumption_format::csv::{Heading, Sheet};
 
 use crate::faults::{NO_MEASURAND, NO_REFERENCE};
 use crate::wanted::Wanted;
+
+/// U in tables of engines, which do not tell it from u.
+const EXPANDED: &str = "expanded";
 
 /// Where everything stands.
 #[derive(Debug)]
@@ -21,6 +25,17 @@ pub(crate) struct Layout {
     pub verdicts: Vec<(String, usize)>,
     pub findings: Option<usize>,
     pub error: Option<usize>,
+}
+
+impl Layout {
+    /// The columns of numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = usize> {
+        self.measurands.iter().flat_map(|one| {
+            let shares = one.shares.iter().map(|(_, at)| *at);
+            let stated = once(&one.stated).chain(&one.reference);
+            stated.flat_map(StatedColumns::numbers).chain(shares)
+        })
+    }
 }
 
 /// The columns of a measurand.
@@ -42,6 +57,17 @@ pub(crate) struct StatedColumns {
     pub dof: Option<usize>,
     pub k: Option<usize>,
     pub expanded: Option<NumberColumn>,
+}
+
+impl StatedColumns {
+    fn numbers(&self) -> impl Iterator<Item = usize> {
+        let spreads = [self.u, self.expanded].into_iter().flatten();
+        let spreads = spreads.map(|column| column.at);
+        once(self.value.at)
+            .chain(spreads)
+            .chain(self.dof)
+            .chain(self.k)
+    }
 }
 
 /// A column of numbers, and how they come into the unit of the measurand.
@@ -201,7 +227,8 @@ impl<'a> Heads<'a> {
     fn stated(&self) -> Vec<&'a str> {
         let mut names: Vec<&str> = Vec::new();
         for head in &self.all {
-            let inside = ["u", "U"].iter().find_map(|letter| call(head.name, letter));
+            let words = ["u", "U", EXPANDED].iter();
+            let inside = words.copied().find_map(|word| call(head.name, word));
             names.extend(inside.filter(|name| !names.contains(name)));
         }
         names
@@ -261,7 +288,7 @@ impl<'a> Heads<'a> {
             u: number("u")?,
             dof: plain("nu"),
             k: plain("k"),
-            expanded: number("U")?,
+            expanded: number("U")?.map_or_else(|| number(EXPANDED), |given| Ok(Some(given)))?,
             unit,
         })
     }

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::ops::Range;
 
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Decimal, Unit};
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::faults::{NO_HEADER, NO_ROWS, NOT_A_NUMBER};
 use gumption_format::csv::{self, Columns, Piece, Pieces, Row, Sheet};
 
-use crate::faults::{NOT_A_DATE, SIGN};
+use crate::faults::{DISAGREE, NOT_A_DATE, SIGN};
 use crate::layout::{Layout, NumberColumn, StatedColumns, layout};
 use crate::wanted::Wanted;
 
@@ -118,6 +118,12 @@ pub(crate) fn read(source: impl Read, name: &str, wanted: &Wanted) -> Result<Res
     let in_first = |faults| Rejection::new(name, &first.text, faults);
     let head = Sheet::new(&first.text).map_err(|fault| in_first(vec![*fault]))?;
     let layout = layout(&head, wanted).map_err(in_first)?;
+    let is_number = |at| layout.numbers().any(|one| one == at);
+    let doubts = csv::two_decimal_signs(&head, is_number).into_iter();
+    let doubts: Vec<Fault> = doubts.chain(csv::mean_of_rows(&head, is_number)).collect();
+    if !doubts.is_empty() {
+        return Err(in_first(doubts));
+    }
     let mut results = Results::of(&layout);
     results.add(&head, &layout).map_err(in_first)?;
     for piece in pieces {
@@ -327,7 +333,7 @@ impl Fields<'_> {
         let (place, line) = (self.place)(at);
         let (column, field) = (self.sheet.header().field(at), self.fields[at]);
         let message = say!("line {line}: {column} cannot be {field}");
-        let label = say!("not negative; degrees of freedom greater than zero");
+        let label = say!("not negative; coverage factors and degrees of freedom greater than zero");
         let fault = Fault::new(SIGN, place, message).label(label);
         Err(Box::new(fault.help(say!(
             "correct the number, or leave the field empty where there is none"
@@ -344,7 +350,43 @@ impl Fields<'_> {
 
     /// A coverage factor; NaN where there is none.
     fn factor(&self, at: Option<usize>) -> Result<f64, Box<Fault>> {
-        at.map_or(Ok(f64::NAN), |at| self.size(at, |number| number < 0.0))
+        at.map_or(Ok(f64::NAN), |at| self.size(at, |number| number <= 0.0))
+    }
+
+    /// Refuses U, k and u that contradict each other beyond what they may be rounded by.
+    fn agree(&self, columns: &StatedColumns) -> Result<(), Box<Fault>> {
+        let (Some(u), Some(k), Some(expanded)) = (columns.u, columns.k, columns.expanded) else {
+            return Ok(());
+        };
+        let plain = NumberColumn { at: k, into: None };
+        // From the least to the largest that is written so.
+        let range = |column: NumberColumn, most: f64| -> Option<[f64; 2]> {
+            let number = self.number(column.at).ok()?;
+            let written = Decimal::from_text(&self.fields[column.at].replace(',', "."));
+            let half = 0.5 * 10f64.powi(written.and_then(|written| written.place())?);
+            let half = half.min(most);
+            Some([number - half, number + half].map(|end| column.converted(end)))
+        };
+        // A k without decimals is not rounded by more than its tenths: 2 may be 1.96.
+        let (Some([least_u, most_u]), Some([least_k, most_k]), Some([least, most])) = (
+            range(u, f64::INFINITY),
+            range(plain, 0.05),
+            range(expanded, f64::INFINITY),
+        ) else {
+            return Ok(());
+        };
+        if least <= most_u * most_k && least_u.max(0.0) * least_k.max(0.0) <= most {
+            return Ok(());
+        }
+        let (place, line) = (self.place)(expanded.at);
+        let name = &columns.name;
+        let [u, k, expanded] = [u.at, k, expanded.at].map(|at| self.fields[at]);
+        let message = say!("line {line}: U({name}) = {expanded} is not k·u = {k}·{u}");
+        let fault = Fault::new(DISAGREE, place, message)
+            .label(say!("k({name}) times u({name}) is another number"));
+        Err(Box::new(fault.help(say!(
+            "correct the one that is wrong, or leave a column out: two of u({name}), k({name}) and U({name}) are enough"
+        ))))
     }
 
     /// Degrees of freedom: infinite where nothing says how many.
@@ -390,6 +432,11 @@ impl Values {
             let own = row.factor(columns.k)?;
             let k = if own.is_nan() { k } else { own };
             stated = [row.spread(columns.u)?, k, row.spread(columns.expanded)?];
+            let [u, k, expanded] = stated;
+            // What is missing contradicts nothing.
+            if (expanded - k * u).abs() > 1e-9 * expanded {
+                row.agree(columns)?;
+            }
         }
         let [u, k, expanded] = stated;
         self.estimate.push(estimate);

@@ -516,3 +516,40 @@ fn what_is_missing_or_wrong_is_told() {
     assert!(refusal("y,y [V],u(y),k(y)\n1,1,1,2\n", &Wanted::default()).contains("two columns"));
     assert!(refusal("", &Wanted::default()).contains("empty"));
 }
+
+/// U, k and u that are all given belong together, as far as their digits tell.
+#[test]
+fn an_expanded_uncertainty_is_k_times_u() {
+    let row = |figures: &str| format!("label,y [V],u(y) [mV],k(y),U(y) [V]\na,1,{figures}\n");
+    for fit in [
+        "1000,2,2",
+        "1000,2,2.0",
+        "1000,1.96,1.96",
+        "12.3,2,0.025",
+        "1000,,2",
+        "1000,2,",
+    ] {
+        found(&row(fit), &Wanted::default());
+    }
+    for unfit in ["1000,2,2.5", "1000,2,2000", "12.3,2,0.0300"] {
+        let said = refusal(&row(unfit), &Wanted::default());
+        assert!(said.contains("F0105"), "{unfit}: {said}");
+    }
+    assert!(refusal(&row("1000,0,0"), &Wanted::default()).contains("F0104"));
+    let engine = found(
+        "label,y [V],u(y) [V],expanded(y) [V]\na,1,0.1,0.2\nb,1.1,0.1,0.2\n",
+        &Wanted::default(),
+    );
+    assert_eq!(engine.measurands[0].agreement.tested, 2);
+}
+
+/// What is no row of the table, or read in two ways, is refused.
+#[test]
+fn what_a_batch_refuses_is_refused() {
+    let rows = "label;y;u(y);k(y)\nA;1,0;0,1;2\nB;1,1;0,1;2\nC;1,2;0,1;2\n";
+    assert_eq!(found(rows, &Wanted::default()).rows, 3);
+    let said = refusal(&format!("{rows}D;1.234;0,1;2\n"), &Wanted::default());
+    assert!(said.contains("decimal"), "{said}");
+    let said = refusal(&format!("{rows}mean;1,1;0,1;2\n"), &Wanted::default());
+    assert!(said.contains("means of those"), "{said}");
+}

@@ -46,7 +46,10 @@ def is_of(table: Any) -> bool:
 def columns(rows: Any) -> list[tuple[str, Any]]:
     """The columns of a record batch or a table: arrays where they are doubles, else lists."""
     nanoarrow = _nanoarrow()
-    array = nanoarrow.Array(rows)
+    stream = nanoarrow.c_array_stream(rows)
+    if views := [field.name for field in stream.get_schema().children if _has_views(field)]:
+        return _read_by_pyarrow(stream, views)
+    array = nanoarrow.Array(stream)
     missing = nanoarrow.nulls_as_sentinel()
 
     def column(field: Any, child: Any) -> Any:
@@ -55,6 +58,27 @@ def columns(rows: Any) -> list[tuple[str, Any]]:
 
     children = zip(array.schema.fields, array.iter_children())
     return [(field.name, column(field, child)) for field, child in children]
+
+
+def _has_views(schema: Any) -> bool:
+    """Whether there are texts by views, which nanoarrow takes and does not read: the process ends."""
+    inner = [*schema.children, *([schema.dictionary] if schema.dictionary else [])]
+    return schema.format in ("vu", "vz") or any(map(_has_views, inner))
+
+
+def _read_by_pyarrow(stream: Any, views: list[str]) -> list[tuple[str, Any]]:
+    try:
+        import pyarrow  # type: ignore[import-untyped]
+    except ImportError as missing:
+        raise TypeError(
+            f"the column {views[0]} has texts by views (string_view), which take the package pyarrow: pip install pyarrow, or make them plain texts"
+        ) from missing
+    table = pyarrow.RecordBatchReader.from_stream(stream).read_all()
+
+    def column(values: Any) -> Any:
+        return values.to_numpy() if values.type == pyarrow.float64() else values.to_pylist()
+
+    return [(name, column(table[at])) for at, name in enumerate(table.column_names)]
 
 
 def record_batch(found: dict[str, Any], length: int) -> RecordBatch:

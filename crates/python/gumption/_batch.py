@@ -43,8 +43,8 @@ def batch(
     c·u of each component, with sign: summed over the components that rows share, products of contributions are the
     covariance of two rows. The columns named in ``keep`` (type, laboratory, date …) go through to the results unchanged.
 
-    Gives the results as columns: of a frame a frame, of a table of Arrow one of Arrow, else a ``Table``, a ``dict`` of arrays and
-    lists. With ``output`` they go into that file as they come, however long the table is, and what is given is the number of rows and of those without a result.
+    Gives the results as columns: of a frame a frame with its index, of a table of pyarrow one of pyarrow, else a ``Table``, a ``dict``
+    of arrays and lists. What is kept, and labels, have the types that they have in the table. With ``output`` they go into that file as they come, however long the table is, and what is given is the number of rows and of those without a result.
     ``progress`` is told the share that is done.
 
     Raises ``Refused`` where the budget has faults that no row mends, or a column is no place of it.
@@ -66,7 +66,7 @@ def batch(
         return {"rows": rows, "failed": failed}
     labels = columns["label"] or [""] * rows
     columns["label"] = [label or str(at) for at, label in enumerate(labels, 1)]
-    return _table.like(table, columns, rows)
+    return _table.like(table, columns, rows, several(keep))
 
 
 _NO_CSV = {".parquet", ".xlsx", ".xls", ".json", ".feather", ".arrow"}
@@ -85,6 +85,7 @@ def arrow_batch(
     quasi_random: bool = False,
     shares: bool = False,
     contributions: bool = False,
+    keep: str | Sequence[str] = (),
     threads: int = 1,
     language: Language = "en",
 ) -> _arrow.RecordBatch:
@@ -97,7 +98,7 @@ def arrow_batch(
     nothing. There is a ``label`` where the rows have one. The columns do not depend on the rows: those of an empty batch are
     the schema.
 
-    Columns of doubles are taken as they lie in memory. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
+    Columns of doubles are taken as they lie in memory; labels, and columns that are kept, are given as texts. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
     as engines have workers of their own. Needs the package ``nanoarrow``.
     """
     columns = _table.of_arrow(rows)
@@ -107,6 +108,7 @@ def arrow_batch(
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
         more=(shares, contributions),
+        keep=several(keep),
         language=language,
     )
     assert found is not None

@@ -121,12 +121,12 @@ def calibrate(
         with typed():
             return Result(_engine.calibrate(source(experiment, files), language), language)
     if isinstance(recordings, Mapping):
-        texts = {str(name): _recording(one) for name, one in recordings.items()}
+        texts, faulty = _recordings(recordings)
         listed = [(name, f"recordings/{name}.csv") for name in texts]
-        at_hand = {path: texts[name] for name, path in listed}
+        at_hand: dict[str | os.PathLike[str], str | bytes] = {path: texts[name] for name, path in listed}
         place = source(experiment, {**(files or {}), **at_hand})
     else:
-        given = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
+        faulty, given = {}, [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
         if hasattr(recordings, "columns") or not all(isinstance(one, (str, os.PathLike)) for one in given):
             raise TypeError('recordings: files or folders, or a dict of names with frames, such as {"17": frame}')
         listed = _engine.recordings_of(given, language)
@@ -135,7 +135,22 @@ def calibrate(
             place["files"] += [(os.fspath(path), Path(path).read_bytes()) for _, path in listed]
     with typed():
         text, _ = _engine.calibrate_each(place, listed, shares, progress, language)
-    return _table.read(text, ("label", "error"))
+    table = _table.read(text, ("label", "findings", "error"))
+    if not faulty or not isinstance(recordings, Mapping):
+        return table
+    return _table.with_faulty(table, [str(name) for name in recordings], faulty)
+
+
+def _recordings(given: Mapping[Any, _table.Given]) -> tuple[dict[str, str | bytes], dict[str, str]]:
+    """The texts of recordings, and why others have none, by their names."""
+    texts: dict[str, str | bytes] = {}
+    faulty = {}
+    for name, one in given.items():
+        try:
+            texts[str(name)] = _recording(one)
+        except (ValueError, OSError) as why:
+            faulty[str(name)] = str(why)
+    return texts, faulty
 
 
 def _recording(given: _table.Given) -> str | bytes:
@@ -162,6 +177,9 @@ def fleet(
     the one that names the devices (``label``, where nothing is said), ``reference`` the one of reference values, ``X`` or
     ``y=X``. ``result.groups`` and ``result["y"]`` have the figures, ``result.table()`` those of each group.
     """
+    for name, one in (("date", date), ("device", device)):
+        if one is not None and not isinstance(one, str):
+            raise TypeError(f"{name}: the name of a column is needed, not {one!r}")
     wanted = {
         "by": several(by),
         "date": date,

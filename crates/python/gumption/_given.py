@@ -16,7 +16,7 @@ from . import _engine
 Given = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 """A file: its path, its text (a ``str`` with a line break or an ``=``), or what would stand in it."""
 
-Contents = Mapping[str, Union[str, bytes]]
+Contents = Mapping[Union[str, "os.PathLike[str]"], Union[str, bytes]]
 """Files that a file names, by their names."""
 
 
@@ -44,7 +44,7 @@ def sheet(given: str | os.PathLike[str] | bytes, name: str) -> dict[str, Any]:
 
 
 def _in_memory(name: str, content: str | bytes, files: Contents | None) -> dict[str, Any]:
-    contents = {name: content, **(files or {})}
+    contents = {name: content, **{os.fspath(one): held for one, held in (files or {}).items()}}
     return {"path": name, "files": [(one, _content(one, given)) for one, given in contents.items()]}
 
 

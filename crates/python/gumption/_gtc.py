@@ -12,10 +12,13 @@ from typing import Any
 import GTC  # type: ignore[import-untyped]
 from GTC.vector import Vector  # type: ignore[import-untyped]
 
-from ._quantity import Joint, Quantity, quantity
+from ._quantity import Joint, Quantity, as_number, quantity
 
 _taken: dict[tuple[int, int], Quantity] = {}
 """The deviation of each leaf from its value, which a leaf does not know, by its identity."""
+
+_own: dict[tuple[int, int], tuple[float, Quantity]] = {}
+"""The value of each number that was made here, and its quantity, by the identity of its leaf."""
 
 _made: dict[Quantity, Any] = {}
 """The number of each quantity of which something is known."""
@@ -45,11 +48,20 @@ def from_gtc(number: Any) -> Quantity:
     """The quantity of a number: linear in the deviations of its leaves."""
     if not isinstance(number, GTC.lib.UncertainReal):
         raise TypeError("only real numbers of GTC become quantities: take z.real and z.imag of a complex one")
+    components = [*number._u_components.iteritems(), *number._d_components.iteritems()]
+    match components:
+        case [(leaf, component)] if component == leaf.u and (own := _own.get(leaf.uid)) and own[0] == number.x:
+            return own[1]
     total = quantity(number.x)
-    for components in (number._u_components, number._d_components):
-        for leaf, component in components.iteritems():
-            total = total + (component / leaf.u) * _deviation(leaf)
+    for leaf, component in components:
+        total = total + _slope(component / leaf.u) * _deviation(leaf)
     return total
+
+
+def _slope(slope: float) -> float:
+    """3 where the division leaves 3.0000000000000004: what should cancel does."""
+    short = float(f"{slope:.14g}")
+    return short if abs(short - slope) <= 2 * math.ulp(slope) else slope
 
 
 def _deviation(leaf: Any) -> Quantity:
@@ -66,7 +78,7 @@ def _deviation(leaf: Any) -> Quantity:
 
 def to_gtc(one: Quantity) -> Any:
     """The number of a quantity: linear in those of what it rests on, with the sensitivity coefficients of the GUM."""
-    number: Any = GTC.constant(one.result["y"].gum.estimate)
+    number: Any = GTC.constant(one._found.gum.estimate)
     for resting, sensitivity in one.sensitivities().items():
         elementary = _number_of(resting)
         number = number + sensitivity * (elementary - elementary.x)
@@ -76,10 +88,12 @@ def to_gtc(one: Quantity) -> Any:
 def _number_of(resting: Quantity) -> Any:
     if resting not in _made:
         members = [resting] if resting._joint is None else resting._joint.members
-        known = [member.result["y"].gum for member in members]
+        known = [member._found.gum for member in members]
         for member, gum in zip(members, known):
             value, u, nu = gum.estimate, gum.standard_uncertainty, gum.effective_degrees_of_freedom
-            _made[member] = GTC.ureal(value, u, nu, label=member._name, independent=resting._joint is None)
+            number = GTC.ureal(value, u, nu, label=member._name, independent=resting._joint is None)
+            _made[member], leaf, own = number, number._node.uid, as_number(member)
+            _own[leaf], _taken[leaf] = (value, own), own - value
         if resting._joint is not None:
             for at, member in enumerate(members):
                 for before in range(at):

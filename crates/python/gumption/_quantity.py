@@ -7,9 +7,10 @@ import math
 import numbers
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from decimal import Decimal
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NoReturn, Union, cast
 from uuid import uuid4
@@ -20,19 +21,18 @@ import numpy as np
 from . import _units as units
 from ._commands import evaluate
 from ._digits import estimate, figure, rounded, short
+from ._faults import Refused
 from ._result import Measurand, Result
 from ._units import Units
 
-Operand = Union["Quantity", float]
+Operand = Union["Quantity", float, Decimal, Fraction]
+"""What arithmetic takes beside numbers of ``uncertainties`` and ``GTC``, which say nothing to a checker of types."""
 
-_DIGITS_OF_U = re.compile(r"(?:\.([1-9]))?u(S?)")
+_DIGITS_OF_U = re.compile(r"(?:\.([1-9]))?u(S?)|(S)")
 """So many digits of u, and whether they stand in brackets, as the package ``uncertainties`` writes it."""
 
 _COMPARISONS = {"equal", "not_equal", "less", "less_equal", "greater", "greater_equal"}
 """Functions of NumPy that arrays call for their elements."""
-
-_OURS = re.compile(r"[qy]\d*")
-"""Names that are given here: of quantities without one, and of results."""
 
 _lasting: WeakValueDictionary[str, Lasting] = WeakValueDictionary()
 """What was handed over, or came, by its key."""
@@ -44,16 +44,32 @@ class Lasting:
 
     _key: str | None = None
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def _lasting_key(self) -> str:
         if self._key is None:
             self._key = uuid4().hex
             _lasting[self._key] = self
+        return self._key
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        key = self._lasting_key()
         state = {name: one for name, one in self.__dict__.items() if name != "result"}
-        return _again, (type(self), self._key), state
+        return _again, (type(self), key), state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         if self.__dict__.keys() == {"_key"}:
             self.__dict__.update(state)
+
+
+def _of_chain(rows: list[tuple[Any, ...]]) -> Quantity:
+    """The last of formulas, each of which rests on those before it and on others."""
+    made: list[Quantity] = []
+    for own, formula, parts, unit, name in rows:
+        one = cast(Quantity, _again(Quantity, own))
+        if one.__dict__.keys() == {"_key"}:
+            of = tuple(made[part] if isinstance(part, int) else part for part in parts)
+            Quantity.__init__(one, formula, of, unit=unit, name=name)
+        made.append(one)
+    return made[-1]
 
 
 def _again(kind: type[Lasting], key: str) -> Lasting:
@@ -87,20 +103,29 @@ class Quantity(Lasting):
         self._units = unit or {}
         self._joint: Joint | None = None
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Formulas as a list: one within the other, a chain of a thousand would be too deep for a pickle."""
+        if self._known is not None:
+            return super().__reduce__()
+        formulas = [one for one in _order([self]) if one._known is None]
+        places = {one: at for at, one in enumerate(formulas)}
+        rows = [
+            (one._lasting_key(), one._formula, [places.get(part, part) for part in one._parts], one._units, one._name)
+            for one in formulas
+        ]
+        return _of_chain, (rows,)
+
     @cached_property
     def result(self) -> Result:
         """The evaluated budget."""
-        budget = _budget([self])
-        if "input" not in budget:
-            raise ValueError(
-                "nothing here is uncertain: state u, half_width, readings …; "
-                "what is exact stands in formulas beside quantities that are not, and is a plain number otherwise"
-            )
-        return evaluate(budget)
+        try:
+            return evaluate(_budget([self]))
+        except Refused as refused:
+            raise _in_python(refused) from None
 
     @property
     def _found(self) -> Measurand:
-        return cast(Measurand, self.result["y"])
+        return cast(Measurand, self.result.measurands[0])
 
     @property
     def y(self) -> float:
@@ -138,9 +163,11 @@ class Quantity(Lasting):
         return self._found.interval
 
     def to(self, unit: str) -> Quantity:
-        """The same quantity, in another unit."""
+        """The same quantity, in another unit: a temperature in °C is a thermodynamic one in K."""
         _known(unit)
-        return Quantity("{}", (self,), unit=units.of(unit))
+        target = units.of(unit)
+        is_leaving = units.interval(self._units) is not None and units.interval(target) is None
+        return Quantity("kelvin({})" if is_leaving else "{}", (self,), unit=target)
 
     def budget(self) -> dict[str, Any]:
         """The budget that is evaluated."""
@@ -150,7 +177,8 @@ class Quantity(Lasting):
         """Derivatives to the quantities on which it rests, those with an uncertainty."""
         resting = {name: one for one, name in _named([self]).items() if one._known is not None}
         names = [one.name for one in self.result.inputs]
-        return {resting[name]: one.sensitivity for name, one in zip(names, self._found.gum.inputs)}
+        lines = zip(names, self._found.gum.inputs)
+        return {resting[name]: one.sensitivity for name, one in lines if name in resting}
 
     def to_uncertainties(self) -> Any:
         """A number of the package ``uncertainties``, correlated with all others that were made so."""
@@ -211,6 +239,7 @@ class Quantity(Lasting):
         if method != "__call__" or settings or ufunc.__name__ not in _OPERATIONS:
             return NotImplemented
         if any(isinstance(one, np.ndarray) and one.ndim for one in given):
+            _refuse_masked(*given)
             arrays = np.broadcast_arrays(*(np.asarray(one, dtype=object) for one in given))
             flat = [_formed(ufunc.__name__, *ones) for ones in zip(*(array.flat for array in arrays))]
             return np.array(flat, dtype=object).reshape(arrays[0].shape)
@@ -226,7 +255,7 @@ class Quantity(Lasting):
         if not spec:
             return repr(self)
         if of_u := _DIGITS_OF_U.fullmatch(spec):
-            return self._to_digits_of_u(int(of_u[1] or 2), in_brackets=bool(of_u[2]))
+            return self._to_digits_of_u(int(of_u[1] or 2), in_brackets=bool(of_u[2] or of_u[3]))
         try:
             return self._shown(f"{self.y:{spec}}", None if self.u is None else f"{self.u:{spec}}")
         except ValueError:
@@ -321,7 +350,7 @@ _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
     "reciprocal": ("1 / {}", units.power_of(-1)),
     "sqrt": ("sqrt({})", units.power_of(1 / 2)),
     "square": ("{} ^ 2", units.power_of(2)),
-    "subtract": ("{} - {}", units.alike),
+    "subtract": ("{} - {}", units.difference),
     **{name: (f"{name}({{}})", units.none) for name in "exp log10 log2 sin cos tan sinh cosh tanh sign".split()},
     **{f"arc{name}": (f"a{name}({{}})", units.none) for name in "sin cos tan sinh cosh tanh".split()},
 }
@@ -358,8 +387,6 @@ def quantity(
         return from_gtc(value)
     if name is not None and not (isinstance(name, str) and name.isidentifier()):
         raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
-    if name is not None and _OURS.fullmatch(name):
-        raise ValueError(f"{name!r} cannot be the name of a quantity: results are called so, and quantities without a name")
     if isinstance(value, str) and unit is None:
         # "5 V" says its unit, in which a number for u is, too.
         unit = value.strip().partition(" ")[2].strip() or None
@@ -398,14 +425,28 @@ def _is_exact(known: Mapping[str, Any]) -> bool:
     return set(known) <= {"value", "unit"}
 
 
+def is_exact(one: Quantity) -> bool:
+    """Whether nothing is in doubt of a quantity of which something is known."""
+    return one._known is not None and _is_exact(one._known)
+
+
+def as_number(one: Quantity) -> Quantity:
+    """Its number in its unit, which is what a package without units knows of it."""
+    between = units.interval(one._units)
+    if between:
+        return (one - quantity(0, unit=units.written(one._units))) / quantity(1, unit=between)
+    return one / quantity(1, unit=units.written(one._units)) if one._units else one
+
+
 def correlated(
-    values: Sequence[float],
-    u: Sequence[float],
+    values: Sequence[float] | np.ndarray,
+    u: Sequence[float] | np.ndarray,
     correlation: Any,
     unit: Sequence[str] | str | None = None,
     names: Sequence[str] | None = None,
 ) -> list[Quantity]:
     """Quantities with standard uncertainties and a matrix of correlation coefficients."""
+    _refuse_masked(correlation)
     matrix = np.asarray(correlation, dtype=float)
     of_each = [unit] * len(values) if unit is None or isinstance(unit, str) else list(unit)
     named = [None] * len(values) if names is None else list(names)
@@ -429,7 +470,7 @@ def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
         return np.zeros((len(quantities), len(quantities)))
     result = evaluate(_budget(quantities), monte_carlo=False)
     if len(quantities) == 1:
-        return np.array([[result["y"].gum.standard_uncertainty ** 2]])
+        return np.array([[result.measurands[0].gum.standard_uncertainty ** 2]])
     return np.array(result.joint.covariance, dtype=float)
 
 
@@ -441,9 +482,42 @@ def _formed(operation: str, *given: Any) -> Quantity:
     # A formula may name an operand twice.
     written = [f"{{{next(places)}}}" if isinstance(one, Quantity) else _number(float(one)) for one in given]
     formula, unit = _OPERATIONS[operation]
+    _suit_points(operation, given)
     operands = [one._units if isinstance(one, Quantity) else one for one in given]
     parts = tuple(one for one in given if isinstance(one, Quantity))
     return Quantity(formula.format(*written), parts, unit=unit(*operands))
+
+
+_OF_POINTS = {"add", "subtract", "maximum", "minimum", "positive", "conjugate"}
+"""What can be done with temperatures in °C: what would depend on the zero of the scale cannot."""
+
+
+def _suit_points(operation: str, given: tuple[Any, ...]) -> None:
+    """Refuses what has no meaning for points on a scale, with what there is here in place of the functions of a file."""
+    points = [one for one in given if isinstance(one, Quantity) and units.interval(one._units)]
+    if not points:
+        return
+    unit, between = units.written(points[0]._units), units.interval(points[0]._units)
+    bare = [float(one) for one in given if not isinstance(one, Quantity)]
+    if operation == "add" and len(points) == 2:
+        raise ValueError(
+            f"two points on the {unit} scale have no sum: their mean is a + (b - a)/2, of many a + sum(x - a for x in all)/len(all); "
+            f"what is a difference or a correction has the unit {between}"
+        )
+    if operation not in _OF_POINTS:
+        raise ValueError(
+            f"{unit} is a scale with an arbitrary zero, of which there is no {operation}: take x.to('K'), the thermodynamic temperature, "
+            f"or the difference from a reference, x - quantity(20, unit='{unit}'), which is in {between}"
+        )
+    if bare:
+        raise ValueError(
+            f"{bare[0]:g} has no unit: write quantity({bare[0]:g}, unit='{between}'), a difference, or quantity({bare[0]:g}, unit='{unit}')"
+        )
+
+
+def _refuse_masked(*arrays: Any) -> None:
+    if any(np.ma.is_masked(one) for one in arrays):
+        raise TypeError("some values are masked, and would be taken for values: take those that are there, x.compressed()")
 
 
 def _taken(one: Any) -> Any:
@@ -462,8 +536,8 @@ def _number(value: float) -> str:
     return f"({value!r})"
 
 
-def _named(quantities: list[Quantity]) -> dict[Quantity, str]:
-    """They and what they rest on, each after its parts, with their names in a budget."""
+def _order(quantities: list[Quantity]) -> dict[Quantity, None]:
+    """They and what they rest on, each after its parts."""
     order: dict[Quantity, None] = {}
     waiting = [(one, False) for one in reversed(quantities)]
     while waiting:
@@ -475,12 +549,34 @@ def _named(quantities: list[Quantity]) -> dict[Quantity, str]:
         else:
             waiting.append((one, True))
             waiting.extend((part, False) for part in reversed(one._parts))
-    numbers = itertools.count(1)
-    names = {one: one._name or f"q{next(numbers)}" for one in order}
-    for name, count in Counter(names.values()).items():
+    return order
+
+
+def _named(quantities: list[Quantity]) -> dict[Quantity, str]:
+    """They and what they rest on, each after its parts, with their names in a budget."""
+    order = _order(quantities)
+    given = Counter(one._name for one in order if one._name)
+    for name, count in given.items():
         if count > 1:
             raise ValueError(f"two quantities are called {name}")
-    return names
+    ours = _free("q", given)
+    return {one: one._name or next(ours) for one in order}
+
+
+def _free(prefix: str, taken: Collection[str]) -> Iterator[str]:
+    """Names with a number that nothing has."""
+    return (name for name in (f"{prefix}{at}" for at in itertools.count(1)) if name not in taken)
+
+
+def _in_python(refused: Refused) -> Refused:
+    """Says beside the words of a file what there is here."""
+    if not any(fault.code.startswith("M04") for fault in refused.faults):
+        return refused
+    also = (
+        "The file is what the arithmetic wrote: q1, q2 … are the quantities without a name. In Python 20 'K' is quantity(20, unit='K'), "
+        "kelvin(x) is x.to('K'), value_in(x, 'V') is x / quantity(1, unit='V')."
+    )
+    return Refused(f"{refused}\n{also}\n", refused.faults)
 
 
 def _budget(quantities: list[Quantity]) -> dict[str, Any]:
@@ -493,10 +589,17 @@ def _budget(quantities: list[Quantity]) -> dict[str, Any]:
     ]
     known = [(one, name, one._known) for one, name in names.items() if one._known is not None]
     inputs = {one: name for one, name, what in known if not _is_exact(what)}
-    outputs = ["y"] if len(quantities) == 1 else [f"y{at}" for at in range(1, len(quantities) + 1)]
+    stated = {name: what for one, name, what in known if one in inputs}
+    nothing = ""
+    if not stated:
+        # A budget has an input; what is exact stays so beside one that is multiplied by 0.
+        doubt, unit = next(_free("nothing", names.values())), quantities[0]._units
+        stated = {doubt: {"value": 0, "u": 1, "unit": units.interval(unit) or units.written(unit)}}
+        nothing = f" + 0 * {doubt}"
+    of_one = len(quantities) == 1 and "y" not in names.values()
     measurands = {
-        output: {"model": names[one], "unit": units.written(one._units)}
-        for output, one in zip(outputs, quantities)
+        output: {"model": names[one] + nothing, "unit": units.written(one._units)}
+        for output, one in zip(["y"] if of_one else _free("y", names.values()), quantities)
     }
     groups = {id(one._joint): one._joint for one in inputs if one._joint is not None}
     tables = [group.table(inputs) for group in groups.values()]
@@ -505,7 +608,7 @@ def _budget(quantities: list[Quantity]) -> dict[str, Any]:
         "model": "\n".join(formulas),
         "measurand": measurands,
         "constant": {name: what for one, name, what in known if one not in inputs},
-        "input": {name: what for one, name, what in known if one in inputs},
+        "input": stated,
         "joint": [table for table in tables if table is not None],
     }
     return {key: part for key, part in parts.items() if part}

@@ -199,7 +199,7 @@ class Result:
             for row in self.rows
             for one in row.measurands
         ]
-        return Table({column: [line[at] for line in lines] for at, column in enumerate(columns)})
+        return _tabulated({column: [line[at] for line in lines] for at, column in enumerate(columns)})
 
     def to_pandas(self) -> Any:
         """``table`` as a frame of pandas."""
@@ -282,7 +282,7 @@ class Result:
 
 def _of_coefficients(coefficients: list[dict[str, Any]]) -> Table:
     keys = {"coefficient": "name", "unit": "unit", "value": "value", "u": "u", "nu": "dof", "k": "k", "U": "U"}
-    return Table({column: [_wrapped(one[key]) for one in coefficients] for column, key in keys.items()})
+    return _tabulated({column: [_wrapped(one[key]) for one in coefficients] for column, key in keys.items()})
 
 
 def _of_groups(fleet: dict[str, Any]) -> Table:
@@ -290,13 +290,27 @@ def _of_groups(fleet: dict[str, Any]) -> Table:
     lines = []
     for measurand in fleet["measurands"]:
         for group, figures in zip(fleet["groups"], measurand["groups"]):
-            line = dict(zip_longest(fleet["grouped_by"], group["key"], fillvalue=""))
-            line |= {"measurand": measurand["name"], "unit": measurand["unit"], "rows": group["rows"]}
+            line = {"measurand": measurand["name"], "unit": measurand["unit"], "rows": group["rows"]}
             line |= {name: _wrapped(one) for name, one in figures.items() if not isinstance(one, (dict, list))}
             consistency = figures["consistency"] or {}
             line |= {name: _wrapped(consistency.get(name)) for name in ("birge", "p_value")}
-            lines.append(line)
-    return Table({name: [line[name] for line in lines] for name in (lines[0] if lines else ())})
+            # A group may be called as a figure is.
+            own = [f"{name} (group)" if name in line else name for name in fleet["grouped_by"]]
+            lines.append(dict(zip_longest(own, group["key"], fillvalue="")) | line)
+    return _tabulated({name: [line[name] for line in lines] for name in (lines[0] if lines else ())})
+
+
+def _tabulated(columns: dict[str, list[Any]]) -> Table:
+    """Numbers as arrays, ``nan`` where there is none."""
+    return Table({name: column if _is_of_texts(name, column) else _numbers(column) for name, column in columns.items()})
+
+
+def _is_of_texts(name: str, column: list[Any]) -> bool:
+    return name == "label" or any(not isinstance(one, (int, float, type(None))) for one in column)
+
+
+def _numbers(column: list[Any]) -> np.ndarray:
+    return np.array([math.nan if one is None else one for one in column])
 
 
 def _figure(value: Any) -> float | None:

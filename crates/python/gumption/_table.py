@@ -7,7 +7,7 @@ import html
 import importlib
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -24,6 +24,10 @@ SHOWN = 20
 
 class Table(dict[str, Any]):
     """Columns of equal length by their names: arrays of numbers, ``nan`` where there is none, and lists of texts."""
+
+    def copy(self) -> Table:
+        """The same columns, as a table."""
+        return Table(self)
 
     def to_pandas(self) -> Any:
         """The columns as a frame of pandas."""
@@ -56,18 +60,42 @@ def _shown(cell: Any) -> str:
     return "" if cell is None else str(cell)
 
 
-def like(given: Any, found: Table, rows: int) -> Any:
-    """What was found of a table: of a frame a frame, of a table of Arrow one of Arrow, else columns."""
-    library = _library(given)
-    if library not in _FRAMES and _arrow.is_of(given):
-        batch = _arrow.record_batch(found, rows)
-        return batch if library != "pyarrow" else importlib.import_module("pyarrow").table(batch)
+def like(given: Any, found: Table, rows: int, kept: Sequence[str]) -> Any:
+    """What was found of a table: of a frame a frame with its index, of a table of pyarrow one of pyarrow, else columns. The columns
+    that are kept, and labels, are those that were given, of whatever type."""
+    library, own = _library(given), _carried(given, found, kept)
+    if library == "pyarrow":
+        arrow = importlib.import_module("pyarrow")
+        table = arrow.table(_arrow.record_batch(found, rows))
+        for name, column in own.items():
+            table = table.set_column(table.column_names.index(name), name, column)
+        return table
     for name, column in found.items():
         if column is None:
             found[name] = [""] * rows
-    if library not in _FRAMES:
-        return found
-    return found.to_pandas() if library == "pandas" else found.to_polars()
+    if library == "pandas":
+        frame = found.to_pandas().set_axis(given.index, axis="index")
+        # Series are put where their index is, which may have something twice.
+        return frame.assign(**{name: column.array for name, column in own.items()})
+    found.update(own)
+    return found.to_polars() if library == "polars" else found
+
+
+def _carried(given: Any, found: Table, kept: Sequence[str]) -> dict[str, Any]:
+    """The columns of results that are columns of a table in memory: those that are kept, and labels, unless one is missing,
+    in whose place is the number of its row."""
+    # What can be gone through once is gone; Series in a dict would be put where their index is.
+    attribute = {"pandas": "columns", "polars": "columns", "pyarrow": "column_names"}.get(_library(given), "")
+    names = list(given) if isinstance(given, Mapping) else getattr(given, attribute, ())
+    columns = {name: given[name] for name in names if not isinstance(given[name], Iterator)}
+    labels = ["label"] if all(_field(one).strip() for one in columns.get("label", ())) else []
+    # What is kept may be named without its unit.
+    wanted = {*kept, *labels}
+    is_wanted = {name: name in wanted or name.partition(" [")[0] in wanted for name in columns}
+    carried = {name: column for name, column in columns.items() if is_wanted[name] and name in found}
+    if not isinstance(given, Mapping):
+        return carried
+    return {name: one if isinstance(one, (list, np.ndarray)) else list(one) for name, one in carried.items()}
 
 
 _FRAMES = ("pandas", "polars")
@@ -86,6 +114,20 @@ def read(text: str, texts: Sequence[str]) -> Table:
         cells = [row[at] for row in rows]
         columns[name] = cells if name in texts else np.array([float(cell or "nan") for cell in cells])
     return columns
+
+
+def with_faulty(table: Table, names: Sequence[str], faulty: Mapping[str, str]) -> Table:
+    """Rows of these names, of which some have nothing but an error and the others are in the table, in this order."""
+    rows = {name: at for at, name in enumerate(name for name in names if name not in faulty)}
+    places = [rows.get(name) for name in names]
+    whole = Table()
+    for column, cells in table.items():
+        if isinstance(cells, np.ndarray):
+            whole[column] = np.array([np.nan if at is None else cells[at] for at in places])
+        else:
+            whole[column] = ["" if at is None else cells[at] for at in places]
+    errors = whole.get("error", [""] * len(names))
+    return Table(whole | {"label": list(names), "error": [faulty.get(name, why) for name, why in zip(names, errors)]})
 
 
 def written(table: Any) -> str:
@@ -109,6 +151,9 @@ def given(table: Given) -> Any:
 
 def of_arrow(table: Any) -> list[tuple[str, Any]]:
     """Whatever has the interface of Arrow, as the engine takes it."""
+    if _library(table) == "polars":
+        # Its texts are views, which nanoarrow does not read.
+        return _columns(table)
     return [(name, cells(column)) for name, column in _arrow.columns(table)]
 
 
@@ -146,12 +191,15 @@ def cells(column: Any) -> Any:
     digits."""
     array = column.to_numpy() if hasattr(column, "to_numpy") else column
     if isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 1:
-        return np.ascontiguousarray(array)
+        # What is masked is missing, whatever stands below the mask.
+        return np.ascontiguousarray(np.ma.filled(array, np.nan))
     return [_field(one) for one in column]
 
 
 def _element(value: Any) -> str:
     """A number of a list; what is none is for the row to refuse."""
+    if value is np.ma.masked:
+        return "nan"
     try:
         return repr(float(value))
     except (TypeError, ValueError):
@@ -161,9 +209,11 @@ def _element(value: Any) -> str:
 def _field(value: Any) -> str:
     if isinstance(value, str):
         return value
+    if value is None or value is np.ma.masked:
+        return ""
     if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
         return f"[{', '.join(map(_element, value))}]"
-    # What is missing: None, nan, and what pandas calls NaT and NA.
-    if value is None or str(value) in ("nan", "NaT", "<NA>"):
+    # What is missing beside these: nan, and what pandas calls NaT and NA.
+    if str(value) in ("nan", "NaT", "<NA>"):
         return ""
     return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)

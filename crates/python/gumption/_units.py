@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Union
@@ -43,8 +44,29 @@ def _exponent(exponent: float) -> str:
 
 
 def alike(*operands: Operand) -> Units:
-    """What is added has one unit; that of the first that has any."""
-    return next((one for one in operands if isinstance(one, dict) and one), {})
+    """What is added has one unit; that of the first that has any. What is added to a point of a scale gives a point."""
+    having = [one for one in operands if isinstance(one, dict) and one]
+    return next(filter(interval, having), having[0] if having else {})
+
+
+def difference(a: Operand, b: Operand) -> Units:
+    """Of what is subtracted: two points of a scale leave a difference, which has another unit."""
+    points = isinstance(a, dict) and isinstance(b, dict) and interval(b)
+    between = interval(a) if points and isinstance(a, dict) else None
+    return of(between) if between else alike(a, b)
+
+
+_POINT = re.compile(r"(.*)(?:°C|degC|℃|摄氏度)|°F|degF|℉|华氏度")
+"""Units of scales with a zero of their own, with what stands before them."""
+
+
+def interval(units: Units) -> str | None:
+    """The unit of differences, where this is one of points on a scale."""
+    match list(units.items()):
+        case [(unit, 1)] if point := _POINT.fullmatch(unit):
+            # `kK`, `mK`; in a compound unit °C is a difference anyway.
+            return "Δ°F" if point[1] is None else f"{point[1]}K" if len(point[1]) < 3 else None
+    return None
 
 
 def none(*_: Operand) -> Units:

@@ -1,5 +1,6 @@
 //! A budget for every row of a table.
 
+use std::ffi::CString;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -7,13 +8,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_format::csv;
-use gumption_format::files::write::Replacing;
-use gumption_format::files::{Files, Growing};
+use gumption_format::files::write::{Replacing, Unwritten, Why};
+use gumption_format::files::{FileId, Files, Growing};
 use gumption_gum::batch::{self, Lot, Plan};
 use gumption_gum::budget::{BatchFile, Profile};
 use gumption_gum::propagate::Progress;
 use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
 use numpy::IntoPyArray;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use crate::compute::Settings;
@@ -48,6 +50,13 @@ impl Rows<'_> {
         match self {
             Rows::File(source) => source.with(|files, path| files.length(path)).unwrap_or(1),
             Rows::Columns(columns) => columns.rows() as u64,
+        }
+    }
+
+    fn on_disk(&self) -> Option<&Path> {
+        match self {
+            Rows::File(source) => source.on_disk(),
+            Rows::Columns(_) => None,
         }
     }
 
@@ -99,11 +108,19 @@ pub(crate) fn batch_of(
         keep,
         progress: Progress::default(),
     };
+    let rows = Rows::of(&mut table)?;
+    if let Some((path, _)) = &output {
+        let read = [source.on_disk(), rows.on_disk()];
+        if read.into_iter().flatten().any(|read| is_same(read, path)) {
+            let (path, why) = (path.clone(), Why::Read);
+            return Err(unwritten(Unwritten { path, why }, language));
+        }
+    }
     let (shares, contributions) = more;
     let batch = Batch {
         source: &source,
         profile: settings.profile()?,
-        rows: Rows::of(&mut table)?,
+        rows,
         columns: Columns {
             shares,
             contributions,
@@ -114,6 +131,7 @@ pub(crate) fn batch_of(
         read: AtomicU64::new(0),
         language,
     };
+    batch.warn(py)?;
     match output {
         None => batch.into_columns(py, progress.as_ref()),
         Some((path, replace)) => {
@@ -126,6 +144,12 @@ pub(crate) fn batch_of(
             batch.into_file(py, progress.as_ref(), sink)
         }
     }
+}
+
+/// Whether both are names of one file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let both = FileId::of(one).zip(FileId::of(other));
+    both.is_some_and(|(one, other)| one.is(&other))
 }
 
 /// A budget and the rows for which it is evaluated.
@@ -141,6 +165,17 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
+    /// Warns of what the columns do not say.
+    fn warn(&self, py: Python<'_>) -> PyResult<()> {
+        let caveat = self.source.with(|files, path| {
+            let file = BatchFile::open(files, path, self.profile).ok()?;
+            self.columns.caveat(&file)
+        });
+        let Some(caveat) = caveat else { return Ok(()) };
+        let words = CString::new(caveat.in_language(self.language))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &words, 1)
+    }
+
     fn into_columns(self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<Evaluated> {
         let columns = self.columns;
         let work = |files: Files<'_>, path: &Path| {

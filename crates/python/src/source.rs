@@ -1,6 +1,7 @@
 //! Where the files of a call are, and files that are dictionaries.
 
 use std::fmt;
+use std::iter::successors;
 use std::path::{Path, PathBuf};
 
 use gumption_format::files::Files;
@@ -8,8 +9,8 @@ use gumption_lab::calibrate::{label, listed};
 use pyo3::exceptions::{PyOSError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyFrozenSet, PyInt, PyMapping, PySet, PyString};
-use serde::ser::{Error, SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
+use toml::value::{Datetime, DatetimeParseError};
 
 use crate::language::spoken;
 
@@ -26,6 +27,11 @@ impl Source {
     /// Its name, as messages call it.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Where it is on the disk, if it is there.
+    pub fn on_disk(&self) -> Option<&Path> {
+        self.files.is_none().then_some(&*self.path)
     }
 
     /// Hands the files to a reader.
@@ -62,8 +68,9 @@ pub(crate) fn recordings_of(
 /// numbers of NumPy, decimals and fractions are lists and numbers, dates are dates, paths are texts.
 #[pyfunction]
 pub(crate) fn toml_of(given: &Bound<'_, PyMapping>) -> PyResult<String> {
-    toml::to_string(&Entry(given.as_any().clone(), &At::File))
-        .map_err(|error| PyTypeError::new_err(error.to_string()))
+    // Read before it is written, as what is gone through can be gone through once.
+    let file = Entry::of(given.as_any(), &At::File)?;
+    toml::to_string(&file).map_err(|error| PyTypeError::new_err(error.to_string()))
 }
 
 /// Where something stands in a file.
@@ -72,6 +79,20 @@ enum At<'a> {
     File,
     Key(&'a At<'a>, &'a str),
     Place(&'a At<'a>, usize),
+}
+
+/// Levels of the deepest file: more than the reader of files takes.
+const DEEPEST: usize = 100;
+
+impl At<'_> {
+    /// How many levels there are above.
+    fn depth(&self) -> usize {
+        let above = successors(Some(self), |at| match at {
+            At::File => None,
+            At::Key(above, _) | At::Place(above, _) => Some(above),
+        });
+        above.count() - 1
+    }
 }
 
 impl fmt::Display for At<'_> {
@@ -85,58 +106,117 @@ impl fmt::Display for At<'_> {
     }
 }
 
-/// Something that may stand in a file, and where.
-struct Entry<'a, 'py>(Bound<'py, PyAny>, &'a At<'a>);
+/// What may stand in a file.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry {
+    Flag(bool),
+    Whole(i64),
+    Number(f64),
+    Text(String),
+    Date(Datetime),
+    List(Vec<Entry>),
+    #[serde(serialize_with = "in_order")]
+    Table(Vec<(String, Entry)>),
+}
 
-impl Serialize for Entry<'_, '_> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Entry(given, at) = self;
-        let raised = |error: PyErr| S::Error::custom(format!("{at}: {error}"));
-        if given.is_instance_of::<PyBool>() {
-            to.serialize_bool(given.extract().map_err(raised)?)
-        } else if let (true, Ok(whole)) = (given.is_instance_of::<PyInt>(), given.extract()) {
-            to.serialize_i64(whole)
-        } else if given.is_instance_of::<PyString>() {
-            to.serialize_str(&given.extract::<String>().map_err(raised)?)
-        } else if let Ok(date) = given.call_method0("isoformat") {
-            let date: String = date.extract().map_err(raised)?;
-            let date: toml::value::Datetime = date.parse().map_err(S::Error::custom)?;
-            date.serialize(to)
-        } else if let Ok(table) = given.cast::<PyMapping>() {
-            let mut map = to.serialize_map(None)?;
-            for item in table.items().map_err(raised)? {
-                let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) =
-                    item.extract().map_err(raised)?;
-                let key: String = key.extract().map_err(|_| {
-                    S::Error::custom(format!("the keys of a file are texts, and {key:?} is none"))
-                })?;
-                if !value.is_none() {
-                    map.serialize_entry(&key, &Entry(value, &At::Key(at, &key)))?;
-                }
-            }
-            map.end()
-        } else if let Ok(plain) = given.call_method0("tolist") {
-            Entry(plain, at).serialize(to)
-        } else if let Ok(path) = given.call_method0("__fspath__") {
-            Entry(path, at).serialize(to)
-        } else if let Ok(number) = given.extract() {
-            to.serialize_f64(number)
-        } else if let (false, Ok(items)) = (is_no_list(given), given.try_iter()) {
-            let mut list = to.serialize_seq(None)?;
-            for (place, item) in items.enumerate() {
-                let item = item.map_err(raised)?;
-                list.serialize_element(&Entry(item, &At::Place(at, place)))?;
-            }
-            list.end()
-        } else {
-            let kind = given.get_type();
-            let kind = kind.name().map_err(raised)?;
+/// A table with its entries as they stand in the dictionary.
+fn in_order<S: Serializer>(entries: &[(String, Entry)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(entries.iter().map(|(key, entry)| (key, entry)))
+}
+
+impl Entry {
+    fn of(given: &Bound<'_, PyAny>, at: &At<'_>) -> PyResult<Entry> {
+        if at.depth() > DEEPEST {
             let why = format!(
-                "{at}: {given:?} ({kind}) cannot stand in a file: numbers, texts, dates, lists and dicts can"
+                "{at}: a file has no more than {DEEPEST} levels; does something contain itself?"
             );
-            Err(S::Error::custom(why))
+            return Err(PyTypeError::new_err(why));
         }
+        Entry::read(given, at)
     }
+
+    fn read(given: &Bound<'_, PyAny>, at: &At<'_>) -> PyResult<Entry> {
+        if given.is_instance_of::<PyBool>() {
+            return Ok(Entry::Flag(given.extract()?));
+        }
+        if let (true, Ok(whole)) = (given.is_instance_of::<PyInt>(), given.extract()) {
+            return Ok(Entry::Whole(whole));
+        }
+        if given.is_instance_of::<PyString>() {
+            return Ok(Entry::Text(given.extract()?));
+        }
+        if let Ok(date) = given.call_method0("isoformat") {
+            let date: String = date.extract()?;
+            let date: Result<Datetime, _> = date.parse();
+            let unfit = |why: DatetimeParseError| PyTypeError::new_err(format!("{at}: {why}"));
+            return date.map(Entry::Date).map_err(unfit);
+        }
+        if let Ok(table) = given.cast::<PyMapping>() {
+            return Entry::table(table, at);
+        }
+        if let Ok(plain) = given.call_method0("tolist") {
+            // A number that Python has no type for gives itself.
+            if !plain.get_type().is(given.get_type()) {
+                return Entry::plain(given, &plain, at);
+            }
+        }
+        if let Ok(path) = given.call_method0("__fspath__") {
+            return Entry::of(&path, at);
+        }
+        if !is_complex(given)
+            && let Ok(number) = given.extract()
+        {
+            return Ok(Entry::Number(number));
+        }
+        if let (false, Ok(items)) = (is_no_list(given), given.try_iter()) {
+            let entry = |(place, item): (usize, PyResult<Bound<'_, PyAny>>)| {
+                Entry::of(&item?, &At::Place(at, place))
+            };
+            return Ok(Entry::List(
+                items.enumerate().map(entry).collect::<PyResult<_>>()?,
+            ));
+        }
+        let kind = given.get_type();
+        let kind = kind.name()?;
+        Err(PyTypeError::new_err(format!(
+            "{at}: {given:?} ({kind}) cannot stand in a file: numbers, texts, dates, lists and dicts can"
+        )))
+    }
+
+    fn table(table: &Bound<'_, PyMapping>, at: &At<'_>) -> PyResult<Entry> {
+        let mut entries = Vec::new();
+        for item in table.items()? {
+            let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+            let key: String = key.extract().map_err(|_| {
+                PyTypeError::new_err(format!("the keys of a file are texts, and {key:?} is none"))
+            })?;
+            if !value.is_none() {
+                let entry = Entry::of(&value, &At::Key(at, &key))?;
+                entries.push((key, entry));
+            }
+        }
+        Ok(Entry::Table(entries))
+    }
+
+    /// An array or a number of NumPy, by what it is in Python.
+    fn plain(given: &Bound<'_, PyAny>, plain: &Bound<'_, PyAny>, at: &At<'_>) -> PyResult<Entry> {
+        let is_masked = given
+            .getattr("mask")
+            .and_then(|mask| mask.call_method0("any"));
+        if is_masked.and_then(|any| any.is_truthy()).unwrap_or(false) {
+            return Err(PyTypeError::new_err(format!(
+                "{at}: some values are masked, and a file has no place for what is missing: take those that are there, `x.compressed()`"
+            )));
+        }
+        Entry::of(plain, at)
+    }
+}
+
+/// A complex number of NumPy becomes a real one with a warning.
+fn is_complex(given: &Bound<'_, PyAny>) -> bool {
+    let kind = given.getattr("dtype").and_then(|kind| kind.getattr("kind"));
+    kind.and_then(|kind| kind.eq("c")).unwrap_or(false)
 }
 
 /// What can be gone through and is no list: a set has no order, and holds what is equal once; bytes are no numbers.

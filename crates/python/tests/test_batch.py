@@ -1,6 +1,8 @@
 """A batch gives every row what the budget gives with the row written into it."""
 
+import datetime
 import math
+import warnings
 
 import gumption
 import numpy as np
@@ -129,6 +131,101 @@ def test_a_file_that_would_hold_something_else_is_refused(tmp_path):
     (tmp_path / "devices.csv").write_bytes(b"PAR1\x15\x04")
     with pytest.raises(gumption.Refused, match="Parquet"):
         gumption.batch(budget, tmp_path / "devices.csv")
+
+
+def test_what_is_read_is_never_overwritten(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    budget, rows = BUDGET.format(readings="[1, 2]", R=1, u=1), "R\n100\n"
+    (tmp_path / "budget.toml").write_text(budget)
+    (tmp_path / "rows.csv").write_text(rows)
+    (tmp_path / "also.csv").symlink_to(tmp_path / "rows.csv")
+    (tmp_path / "budget.csv").symlink_to(tmp_path / "budget.toml")
+    for name in ("rows.csv", "./rows.csv", tmp_path / "also.csv", "budget.csv"):
+        with pytest.raises(OSError, match="never overwritten"):
+            gumption.batch("budget.toml", "rows.csv", output=name, replace=True)
+    assert (tmp_path / "budget.toml").read_text() == budget and (tmp_path / "rows.csv").read_text() == rows
+    assert gumption.batch("budget.toml", "rows.csv", output="out.csv", replace=True)["rows"] == 1
+
+
+@pytest.mark.parametrize("name", ["error", "findings", "seed", "I", "I [mA]", "u(I) [mA]", "share(I, R)", "label"])
+def test_what_is_kept_has_a_name_of_its_own(name):
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    with pytest.raises(gumption.Refused, match="of their own") as refused:
+        gumption.batch(budget, {"R": [1.0], name: ["a"]}, keep=[name])
+    assert refused.value.faults[0].mend
+    assert gumption.batch(budget, {"R": [1.0], "u(X)": ["a"]}, keep=["u(X)"])["u(X)"] == ["a"]
+
+
+def test_masked_rows_are_missing():
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    for kind in (float, int):
+        masked = np.ma.array([100, 99], mask=[0, 1], dtype=kind)
+        found = gumption.batch(budget, {"R": masked})
+        assert [bool(one) for one in found["error"]] == [False, True] and found["I [mA]"][0] == 15
+    fleet = gumption.fleet({"y": np.ma.array([1.0, 1.2, 99.0], mask=[0, 0, 1]), "u(y)": [0.1] * 3, "k(y)": [2.0] * 3})
+    assert fleet.table()["mean"][0] == pytest.approx(1.1)
+
+
+def test_results_have_the_index_of_their_frame():
+    pandas = pytest.importorskip("pandas")
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    rows = {"R": [300.0, 100.0, 200.0]}
+    pairs = pandas.MultiIndex.from_tuples([("a", 1), ("a", 2), ("b", 1)])
+    for index in (None, [5, 9, 7], ["p", "p", "q"], pairs, pandas.to_datetime(["2026-01-01"] * 3)):
+        frame = pandas.DataFrame(rows, index=index)
+        found = gumption.batch(budget, frame)
+        assert found.index.equals(frame.index) and list(found["I [mA]"]) == [5.0, 15.0, 7.5]
+    frame = pandas.DataFrame(rows).sort_values("R")
+    frame["I"] = gumption.batch(budget, frame)["I [mA]"]
+    assert list(frame["I"]) == [15.0, 7.5, 5.0]
+    some = pandas.DataFrame(rows)[1:]
+    assert list(gumption.batch(budget, some).index) == [1, 2]
+
+
+def test_what_is_kept_has_its_type():
+    budget, day = BUDGET.format(readings="[1, 2]", R=1, u=1), datetime.date(2026, 3, 1)
+    rows = {"label": [7, 8], "R": [100.0, 200.0], "n": [1, 2], "day": [day, None], "type": ["A", "B"]}
+    keep = ["n", "day", "type"]
+    plain = gumption.batch(budget, rows, keep=keep)
+    assert all(plain[name] == rows[name] for name in (*keep, "label"))
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(rows, index=[3, 3]).astype({"type": "category", "n": "Int64"})
+    found = gumption.batch(budget, frame, keep=keep)
+    assert all(found[name].dtype == frame[name].dtype for name in (*keep, "label"))
+    assert len(frame.merge(found, on="label")) == 2 and list(found["label"]) == [7, 8]
+    polars = pytest.importorskip("polars")
+    frame = polars.DataFrame(rows)
+    found = gumption.batch(budget, frame, keep=keep)
+    assert all(found[name].equals(frame[name]) for name in (*keep, "label"))
+    arrow = pytest.importorskip("pyarrow")
+    table = arrow.table(rows)
+    found = gumption.batch(budget, table, keep=keep)
+    assert all(found[name].equals(table[name]) for name in (*keep, "label"))
+    # What has no label is called by its number.
+    assert gumption.batch(budget, {"R": [1.0, 2.0], "label": ["a", None]})["label"] == ["a", "2"]
+    mass = gumption.batch(budget, {"R": [1.0, 2.0], "mass [g]": [3, 4]}, keep="mass")
+    assert mass["mass [g]"] == [3, 4]
+    once = gumption.batch(budget, {"R": [1.0, 2.0], "type": (one for one in "AB")}, keep="type")
+    assert once["type"] == ["A", "B"]
+
+
+def test_contributions_that_correlate_are_told():
+    budget = BUDGET.format(readings="[1.0, 1.1, 1.3, 1.2]", R=1, u=1) + '[[correlation]]\nbetween = ["V", "R"]\nr = 0.5\n'
+    with pytest.warns(UserWarning, match="contributions of V, R correlate"):
+        gumption.batch(budget, {"R": [100.0]}, contributions=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        gumption.batch(budget, {"R": [100.0]})
+        gumption.batch(budget.partition("[[")[0], {"R": [100.0]}, contributions=True)
+
+
+def test_tables_in_utf_16(tmp_path):
+    budget, text = BUDGET.format(readings="[1, 2]", R=1, u=1), "label\tR [Ω]\r\n电阻\t100\r\n"
+    expected = gumption.batch(budget, {"label": ["电阻"], "R [Ω]": [100.0]})
+    for encoding in ("utf-16", "utf-16-le", "utf-16-be"):
+        (tmp_path / "rows.csv").write_bytes(text.encode(encoding))
+        found = gumption.batch(budget, tmp_path / "rows.csv")
+        assert found["label"] == ["电阻"] and found["I [mA]"] == expected["I [mA]"] and found["error"] == [""]
 
 
 def test_a_list_with_a_gap_is_a_fault_of_its_row():

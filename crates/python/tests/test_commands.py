@@ -98,6 +98,70 @@ def test_a_dict_is_a_budget():
             gumption.evaluate({"measurand": {"y": {"model": "x"}}, "input": {"x": {"readings": unfit}}})
 
 
+def of_x(**known):
+    return {"measurand": {"y": {"model": "x"}}, "input": {"x": known}}
+
+
+def test_what_can_be_gone_through_once_is_a_list():
+    readings = [1.0, 1.1, 1.2, 1.3]
+    expected = gumption.evaluate(of_x(readings=readings))["y"]
+    for once in (lambda: (x for x in readings), lambda: iter(readings), lambda: map(float, readings), lambda: dict.fromkeys(readings).keys()):
+        found = gumption.evaluate(of_x(readings=once()))["y"]
+        assert found.to_dict() == expected.to_dict()
+    tables = [{"u": 0.1}, {"half_width": 0.2}]
+    found = gumption.evaluate(of_x(value=1, components=(one for one in tables)))["y"]
+    assert found.u == gumption.evaluate(of_x(value=1, components=tables))["y"].u
+
+
+def test_what_contains_itself_is_refused():
+    own = {"value": 1}
+    own["u"] = own
+    deep = 0.1
+    for _ in range(100_000):
+        deep = [deep]
+    for known in (own, {"readings": deep}):
+        with pytest.raises(TypeError, match="no more than 100 levels"):
+            gumption.evaluate(of_x(**known))
+    long = np.longdouble("0.1")
+    assert gumption.evaluate(of_x(value=long * 10, u=long))["y"].u == 0.1
+    assert gumption.evaluate(of_x(readings=np.array([1, 2, 3], np.longdouble)))["y"].y == 2
+    with pytest.raises(TypeError, match="cannot stand in a file"):
+        gumption.evaluate(of_x(readings=[np.clongdouble(1)]))
+
+
+def test_masked_values_are_no_values():
+    masked = np.ma.array([1.0, 1.1, 99.0], mask=[0, 0, 1])
+    with pytest.raises(TypeError, match=r"input\.x\.readings: some values are masked"):
+        gumption.evaluate(of_x(readings=masked))
+    assert math.isclose(gumption.evaluate(of_x(readings=masked.compressed()))["y"].y, 1.05)
+    with pytest.raises(TypeError, match="masked"):
+        gumption.quantity(readings=masked)
+    with pytest.raises(TypeError, match="masked"):
+        gumption.evaluate(of_x(value=masked[2], u=0.1))
+    whole = gumption.evaluate(of_x(readings=np.ma.array([1.0, 2.0, 4.0])))["y"]
+    assert math.isclose(whole.y, 7 / 3)
+
+
+def test_a_budget_in_memory_says_what_it_needs(tmp_path, monkeypatch):
+    (tmp_path / "rr.csv").write_text("U\n1.0\n1.2\n")
+    monkeypatch.chdir(tmp_path)
+    budget = of_x(readings={"file": "rr.csv", "column": "U"})
+    with pytest.raises(gumption.Refused, match="no file rr.csv in what was given in memory") as refused:
+        gumption.evaluate(budget)
+    assert 'files={"rr.csv"' in refused.value.faults[0].mend
+    for name in ("rr.csv", Path("rr.csv")):
+        assert gumption.evaluate(budget, files={name: Path("rr.csv").read_bytes()})["y"].y == 1.1
+    experiment = 'recording = { file = "rr.csv", average = "none" }\nequations = "U = K*omega + b"\n'
+    with pytest.raises(gumption.Refused, match='files={"rr.csv"'):
+        gumption.calibrate(experiment)
+
+
+def test_tables_have_arrays():
+    table = gumption.evaluate(RESISTOR, trials=2000, profile="JJF").table()
+    assert isinstance(table["u"], np.ndarray) and table["measurand"] == ["I"] and table["label"] == [None]
+    assert np.isnan(table["nu"][0]) and isinstance(table.copy(), gumption.Table)
+
+
 def test_paths_stand_in_a_dict():
     readings = {"readings": {"file": Path("readings.csv"), "column": "U"}}
     budget = {"measurand": {"y": {"model": "x"}}, "input": {"x": readings}}

@@ -103,6 +103,53 @@ def test_trials_are_those_of_the_row(page):
     assert part.to_pylist() == whole.slice(2, 1).to_pylist() and part["seed"].type == pa.int64()
 
 
+LONG = ["a label of more than twelve bytes", "b"]
+
+
+def labels(table: object) -> list[str]:
+    return pa.record_batch(gumption.arrow_batch(BUDGET, table))["label"].to_pylist()
+
+
+BUDGET = {"measurand": {"y": {"model": "R"}}, "input": {"R": {"value": 1, "u": 0.1}}}
+
+
+def test_texts_by_views():
+    views = pa.array(LONG, pa.string_view())
+    for table in (pa.table({"label": views, "R": [1.0, None]}), pa.record_batch({"label": views, "R": [1.0, None]})):
+        assert labels(table) == LONG
+        assert gumption.batch(BUDGET, table)["label"].to_pylist() == LONG
+    assert labels(pa.table({"label": views, "R": [1.0, 2.0]}).to_reader()) == LONG
+    polars = pytest.importorskip("polars")
+    frame = polars.DataFrame({"label": LONG, "R": [1.0, None]})
+    assert labels(frame) == LONG and labels(frame.head(0)) == []
+    assert gumption.batch(BUDGET, frame)["label"].to_list() == LONG
+
+
+def test_columns_are_kept():
+    table = pa.table({"R": [1.0, 2.0], "type": ["A", None], "n": [3, 4]})
+    found = pa.record_batch(gumption.arrow_batch(BUDGET, table, keep=["type", "n"]))
+    assert found["type"].to_pylist() == ["A", None] and found["n"].to_pylist() == ["3", "4"]
+
+
+class Relation:
+    """Of an engine that has the interface of Arrow and no frames."""
+
+    def __init__(self, table: pa.Table) -> None:
+        self.__arrow_c_stream__ = table.__arrow_c_stream__
+
+
+def test_of_other_engines_there_are_columns():
+    found = gumption.batch(BUDGET, Relation(pa.table({"label": LONG, "R": [1.0, 2.0]})))
+    assert isinstance(found, gumption.Table) and found["label"] == LONG and list(found["y"]) == [1.0, 2.0]
+
+
+def test_what_an_engine_gives_is_a_fleet():
+    table = pa.table({"label": ["a", "b", "c"], "R": [1.0, 1.1, 1.2]})
+    budget = {**BUDGET, "measurand": {"y": {"model": "R", "unit": "V"}}, "input": {"R": {"value": 1, "u": 0.1, "unit": "V"}}}
+    found = pa.table(gumption.arrow_batch(budget, table))
+    assert gumption.fleet(found).table()["values"][0] == 3
+
+
 def test_polars(page, expected):
     pytest.importorskip("polars")
     assert_same(run("Polars", page).to_arrow().cast(expected.schema), expected)

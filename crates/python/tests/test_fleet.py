@@ -127,7 +127,7 @@ def test_calibrations_have_the_bits_of_the_command(program, runs):
     assert list(found) == head and found["label"] == ["a", "b", "bad", "c"]
     for at, name in enumerate(head):
         texts = [row[at] for row in rows]
-        if name in ("label", "error"):
+        if name in ("label", "findings", "error"):
             # Paths are as they were given.
             assert [one[:5] for one in found[name]] == [one[:5] for one in texts]
         else:
@@ -163,8 +163,51 @@ def test_recordings_may_be_called_by_numbers():
     experiment = 'recording = { file = "one.csv", average = "none" }\nequations = "U = K*omega + b"\n'
     columns = {"omega [deg/s]": [-20.0, 0.0, 20.0], "U [V]": [-0.2, 0.0001, 0.2]}
     assert gumption.calibrate(experiment, recordings={17: columns})["label"] == ["17"]
-    with pytest.raises(ValueError, match="3 of omega .deg/s., 1 of U .V."):
-        gumption.calibrate(experiment, recordings={17: {**columns, "U [V]": [0.1]}})
+
+
+def test_a_recording_that_cannot_be_read_stops_nothing(runs):
+    _, columns = runs
+    short = {**columns["a"], "U [V]": [0.1]}
+    recordings = {"a": columns["a"], "short": short, "b": columns["b"], "none": Path("none.csv")}
+    found = gumption.calibrate(GYRO, recordings=recordings)
+    expected = gumption.calibrate(GYRO, recordings={name: columns[name] for name in "ab"})
+    assert list(found) == list(expected) and found["label"] == list(recordings)
+    assert list(found["K [V·s/deg]"][[0, 2]]) == list(expected["K [V·s/deg]"]) and np.isnan(found["K [V·s/deg]"][1])
+    assert "1 of U [V]" in found["error"][1] and "none.csv" in found["error"][3] and found["error"][::2] == ["", ""]
+    assert gumption.calibrate(GYRO, recordings={"short": short})["label"] == ["short"]
+
+
+def test_findings_of_recordings_are_texts(runs):
+    folder, columns = runs
+    gap = {name: column.copy() for name, column in columns["a"].items()}
+    gap["U [V]"][3] = np.nan
+    found = gumption.calibrate(GYRO, recordings={"a": columns["a"], "gap": gap})
+    assert found["findings"][0] == "" and found["findings"][1] and not any(found["error"])
+
+
+def test_figures_of_a_table_that_contradict_each_other():
+    columns = {"y [V]": [1.0, 1.1], "u(y) [V]": [0.1, 0.1], "k(y)": [2.0, 2.0], "U(y) [mV]": [200.0, 200.0]}
+    assert gumption.fleet(columns)["y"].groups[0].values == 2
+    # Within what is rounded.
+    assert gumption.fleet({**columns, "k(y)": [1.96, 2.0]})["y"].groups[0].values == 2
+    with pytest.raises(gumption.Refused, match="F0105.*not k·u"):
+        gumption.fleet({**columns, "U(y) [mV]": [200.0, 500.0]})
+    with pytest.raises(gumption.Refused, match="cannot be 0"):
+        gumption.fleet({**columns, "k(y)": [0.0, 2.0]})
+    rows = "label;y;u(y);k(y)\nA;1,0;0,1;2\nB;1,1;0,1;2\nC;1,2;0,1;2\n"
+    assert gumption.fleet(rows)["y"].groups[0].values == 3
+    with pytest.raises(gumption.Refused, match="decimal"):
+        gumption.fleet(rows + "D;1.234;0,1;2\n")
+    with pytest.raises(gumption.Refused, match="means of those"):
+        gumption.fleet(rows + "mean;1,1;0,1;2\n")
+
+
+def test_a_group_may_be_called_as_a_figure_is():
+    columns = {"y": [1.0, 1.1, 1.2], "u(y)": [0.1] * 3, "k(y)": [2.0] * 3, "mean": ["p", "p", "q"]}
+    table = gumption.fleet(columns, by="mean").table()
+    assert table["mean (group)"] == ["p", "q"] and table["mean"][1] == 1.2
+    with pytest.raises(TypeError, match="date: the name of a column"):
+        gumption.fleet(columns, date=["x"])
 
 
 def test_an_empty_folder_is_said(tmp_path):

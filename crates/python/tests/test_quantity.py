@@ -50,6 +50,17 @@ def test_quantities_go_to_other_processes_and_come_back():
     assert math.isclose((a + b).u, math.sqrt(0.03), rel_tol=1e-9)
 
 
+def test_long_chains_are_handed_over():
+    x = chain = quantity(1.0, 0.1)
+    for _ in range(3000):
+        chain = chain + x
+    again, same = pickle.loads(pickle.dumps([chain, x]))
+    assert again is chain and same is x
+    script = "import pickle, sys\nchain, x = pickle.load(sys.stdin.buffer)\nprint(chain.sensitivities()[x])"
+    run = subprocess.run([sys.executable, "-c", script], input=pickle.dumps([chain, x]), capture_output=True, check=True)
+    assert run.stdout.split() == [b"3001.0"]
+
+
 def test_a_value_says_its_unit():
     written = quantity("5 V", 0.01)
     apart = quantity(5, 0.01, "V")
@@ -57,11 +68,37 @@ def test_a_value_says_its_unit():
     assert (written / quantity("2 A", 0.02)).u == (apart / quantity(2, 0.02, "A")).u
 
 
+def test_what_is_exact_is_looked_at_alone():
+    exact = quantity(5, unit="V") * 2
+    assert (exact.y, exact.u, exact.unit, str(quantity(5))) == (10.0, 0.0, "V", "<5, u = 0>")
+    assert quantity(20, unit="°C").to("K").y == 293.15 and exact.to_gtc().x == 10.0
+
+
+def test_every_name_may_be_given():
+    y, q1 = quantity(1.0, 0.1, name="y"), quantity(2.0, 0.1, name="q1")
+    assert (y + q1 * quantity(3.0, 0.1)).result["y1"].gum.estimate == 7.0 and (y - y).u == 0
+    assert np.allclose(covariance([y, quantity(1.0, 0.2, name="y1")]), np.diag([0.01, 0.04]))
+
+
+def test_differences_of_temperatures():
+    t, s = quantity(20.0, 0.3, unit="°C"), quantity(25.0, 0.4, unit="degC")
+    assert ((s - t).y, (s - t).unit, repr(s - t)) == (5.0, "K", "<5.000 K, u = 0.500>")
+    assert (quantity(2.0, 0.1, unit="K") + t).unit == "°C" and (t - quantity(2.0, 0.1, unit="K")).unit == "°C"
+    assert ((t + (s - t) / 2).y, (t.to("K") * 2).y, (t - t).u) == (22.5, 586.3, 0.0)
+    assert (quantity(70.0, 0.1, unit="°F") - quantity(60.0, 0.1, unit="°F")).to("K").y == pytest.approx(50 / 9)
+    for wrong in (lambda: t * 2, lambda: t / s, lambda: -t, lambda: np.exp(t), lambda: t**2):
+        with pytest.raises(ValueError, match=r"x\.to\('K'\)"):
+            wrong()
+    for wrong in (lambda: t + s, lambda: np.mean(np.array([t, s]))):
+        with pytest.raises(ValueError, match=r"mean is a \+ \(b - a\)/2"):
+            wrong()
+    with pytest.raises(ValueError, match="quantity.20, unit='K'"):
+        t - 20
+    with pytest.raises(gumption.Refused, match="In Python"):
+        (quantity(1.0, 0.1, unit="V") + 1).y
+
+
 def test_what_is_no_quantity():
-    with pytest.raises(ValueError, match="nothing here is uncertain"):
-        quantity(1).y
-    with pytest.raises(ValueError, match="results are called so"):
-        quantity(1, 0.1, name="y")
     light, time = quantity(299792458, unit="m/s"), quantity(1e-9, 1e-12, "s")
     assert math.isclose((light * time).u, 299792458e-12) and math.isclose((light * time).to("m").y, 0.299792458)
 
@@ -236,7 +273,7 @@ def test_the_budget_is_one():
     with pytest.raises(ValueError, match="two quantities"):
         (V + quantity(1.0, 0.1, "V", name="V")).u  # noqa: B018
     with pytest.raises(ValueError, match="name"):
-        quantity(1.0, 0.1, name="y1")
+        quantity(1.0, 0.1, name="1y")
 
 
 def test_numbers_of_uncertainties_stay_correlated():
@@ -301,3 +338,65 @@ def test_quantities_become_numbers_of_gtc():
 def test_a_sum_begins_with_nothing():
     total = sum([quantity(1.0, 0.1, "V"), quantity(2.0, 0.1, "V")])
     assert math.isclose(total.u, 0.1 * math.sqrt(2)) and total.unit == "V"
+
+
+@pytest.mark.parametrize("package", ["uncertainties", "GTC"])
+@pytest.mark.parametrize("unit", [None, "V", "°C"])
+def test_what_was_handed_over_comes_back(package, unit):
+    pytest.importorskip(package)
+
+    def there(one):
+        return one.to_uncertainties() if package == "uncertainties" else one.to_gtc()
+
+    def assert_same(one, other):
+        assert math.isclose((one - other).u or 0.0, 0, abs_tol=1e-15 * other.u)
+
+    for x in (quantity(2.0, 0.1, unit), quantity(2.0, 0.1, unit, dof=5), quantity(unit=unit, readings=[1.0, 2.0, 4.0])):
+        assert_same(quantity(there(x)), quantity(there(x)))
+        if unit is None:
+            assert quantity(there(x)).nu == x.nu and math.isclose((x - there(x)).u, 0, abs_tol=1e-15)
+            assert math.isclose((x + there(x)).u, 2 * x.u) and math.isclose((there(x) + x).u, 2 * x.u)
+        # Through what rests on it.
+        product = there(x) * 3
+        assert_same(quantity(product), 3 * quantity(there(x)))
+    if unit == "V":
+        assert math.isclose((x / quantity(1, unit="V") - there(x)).u, 0, abs_tol=1e-15)
+
+
+@pytest.mark.parametrize("r", [0.5, -0.9, 1.0])
+def test_correlated_quantities_come_back(r):
+    pytest.importorskip("uncertainties")
+    pytest.importorskip("GTC")
+    a, b = correlated([1.0, 2.0], u=[0.1, 0.2], correlation=[[1, r], [r, 1]])
+    for back in (lambda one: one.to_uncertainties(), lambda one: one.to_gtc()):
+        assert math.isclose((a - back(a)).u, 0, abs_tol=1e-15)
+        assert math.isclose((a + back(b)).u, (a + b).u) and math.isclose((back(a) * 2 + b).u, (2 * a + b).u)
+
+
+def test_a_number_that_was_changed_is_refused():
+    uncertainties = pytest.importorskip("uncertainties")
+    number = uncertainties.ufloat(1.0, 0.1)
+    assert quantity(number).u == 0.1
+    number.std_dev = 0.2
+    with pytest.raises(ValueError, match="was 0.1 when it became a quantity"):
+        quantity(number)
+
+
+def test_what_is_masked_is_no_number():
+    x, masked = quantity(2.0, 0.1), np.ma.array([1.0, 99.0], mask=[0, 1])
+    # Arithmetic of masked arrays keeps the mask.
+    assert (masked * x).mask.tolist() == (x * masked).mask.tolist() == [False, True]
+    for wrong in (
+        lambda: np.multiply(x, masked),
+        lambda: correlated([1.0, 2.0], u=[0.1, 0.2], correlation=np.ma.array(np.eye(2), mask=np.eye(2) == 0)),
+        lambda: correlated(masked, u=[0.1, 0.2], correlation=np.eye(2)),
+        lambda: quantity(masked[1], 0.1),
+    ):
+        with pytest.raises(TypeError, match="masked"):
+            wrong()
+
+
+def test_numbers_that_python_has_no_type_for():
+    long = np.longdouble("1.5")
+    assert quantity(long, np.longdouble(0.1)).y == 1.5 and quantity(readings=np.array([1, 2, 3], np.longdouble)).y == 2
+    assert f"{quantity(1.234, 0.0123):S}" == "1.234(12)"

@@ -16,6 +16,10 @@ certificate: bytes = result.to_dcc("laboratory.toml", language="zh")
 x = quantity(1.0, 0.1, "V") * 2 + quantity(2.0, unit="V", half_width=0.1)
 u: float | None = x.u
 value: float = x.to("mV").y
+from decimal import Decimal
+from fractions import Fraction
+a, b = gumption.correlated(np.array([1.0, 2.0]), u=np.array([0.1, 0.2]), correlation=np.eye(2))
+total = a * Decimal("1.5") + Decimal("2") * b - Fraction(1, 3) * a + Fraction(1, 2)
 table = gumption.calibrate("gyro.toml", recordings=["one.csv", "two.csv"])
 errors: list[str] = table["error"]
 try:

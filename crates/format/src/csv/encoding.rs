@@ -1,6 +1,6 @@
 //! The bytes of a table as text: UTF-8, UTF-16 as spreadsheets save “Unicode text”, or GBK.
 
-use encoding_rs::{GBK, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs::{Decoder, DecoderResult, GBK, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use gumption_fault::{Said, say};
 
 /// How a table was saved.
@@ -113,6 +113,37 @@ fn utf16(bytes: &[u8]) -> Option<(&'static encoding_rs::Encoding, &[u8])> {
         (0, many) if 8 * many >= beginning.len() && many > 0 => Some((UTF_16LE, bytes)),
         (many, 0) if 8 * many >= beginning.len() && many > 0 => Some((UTF_16BE, bytes)),
         _ => None,
+    }
+}
+
+/// Text in UTF-16 that comes in parts, as UTF-8.
+pub(super) struct Wide(Decoder);
+
+impl std::fmt::Debug for Wide {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.0.encoding().name())
+    }
+}
+
+impl Wide {
+    /// Of a text that begins with these bytes, from which the mark is taken; nothing if it is in another encoding.
+    pub(super) fn of(beginning: &mut Vec<u8>) -> Option<Wide> {
+        let (encoding, rest) = utf16(beginning)?;
+        let mark = beginning.len() - rest.len();
+        beginning.drain(..mark);
+        Some(Wide(encoding.new_decoder_without_bom_handling()))
+    }
+
+    /// The next part as UTF-8; nothing where it is no text.
+    pub(super) fn narrow(&mut self, part: &[u8], is_last: bool) -> Option<String> {
+        let most = self
+            .0
+            .max_utf8_buffer_length_without_replacement(part.len());
+        let mut text = String::with_capacity(most?);
+        let decoded = self
+            .0
+            .decode_to_string_without_replacement(part, &mut text, is_last);
+        matches!(decoded, (DecoderResult::InputEmpty, _)).then_some(text)
     }
 }
 

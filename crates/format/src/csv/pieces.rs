@@ -5,7 +5,7 @@ use std::io::Read;
 use ::csv::{ByteRecord, ReaderBuilder};
 use memchr::{memchr, memchr_iter, memrchr};
 
-use super::encoding::{Encoding, NoText, decode, gbk, is_utf16, with_line_feeds};
+use super::encoding::{Encoding, NoText, Wide, decode, gbk, with_line_feeds};
 use super::faults::{NOT_UTF8, ROW_LENGTH, UNREADABLE};
 use super::sheet::separator_of;
 use gumption_fault::{Fault, say};
@@ -23,6 +23,8 @@ pub struct Pieces<R> {
     /// Read, and in no piece yet.
     rest: Vec<u8>,
     ended: bool,
+    /// Makes UTF-8 of UTF-16, where the table was saved so.
+    wide: Option<Wide>,
     /// How it was saved, as soon as a piece tells.
     encoding: Option<Encoding>,
     /// What separates the columns.
@@ -48,6 +50,7 @@ impl<R: Read> Pieces<R> {
             source,
             rest: Vec::new(),
             ended: false,
+            wide: None,
             encoding: None,
             separator: None,
             line: 1,
@@ -94,9 +97,23 @@ impl<R: Read> Pieces<R> {
                 let message = say!("the table cannot be read further: {error}");
                 Box::new(Fault::new(UNREADABLE, 0..0, message))
             })?;
+        let is_first = self.read == 0;
         self.read += read as u64;
         self.ended = read < PIECE;
-        Ok(())
+        if is_first {
+            self.wide = Wide::of(&mut self.rest);
+        }
+        match &mut self.wide {
+            Some(wide) => {
+                let new = self.rest.len() - read.min(self.rest.len());
+                let narrow = wide.narrow(&self.rest[new..], self.ended);
+                let narrow = narrow.ok_or_else(|| undecodable(self.line))?;
+                self.rest.truncate(new);
+                self.rest.extend_from_slice(narrow.as_bytes());
+                Ok(())
+            }
+            None => Ok(()),
+        }
     }
 
     /// Where the last row begins, which may be incomplete; the end, if nothing follows.
@@ -141,17 +158,7 @@ impl<R: Read> Pieces<R> {
             };
             return refuse(say!("the table is no CSV"), help);
         }
-        if self.line == 1 && is_utf16(bytes) {
-            return refuse(
-                say!("the table is text in UTF-16"),
-                say!("save it as CSV in UTF-8"),
-            );
-        }
-        let undecodable = |line: usize| {
-            let line = self.line + line - 1;
-            let message = say!("the table is neither UTF-8 nor GBK in line {line}");
-            Box::new(Fault::new(NOT_UTF8, 0..0, message).help(say!("save it as CSV in UTF-8")))
-        };
+        let undecodable = |line: usize| undecodable(self.line + line - 1);
         if self.encoding == Some(Encoding::Gbk) {
             return gbk(bytes)
                 .map(with_line_feeds)
@@ -168,6 +175,12 @@ impl<R: Read> Pieces<R> {
             }
         }
     }
+}
+
+/// What is no text from this line on.
+fn undecodable(line: usize) -> Box<Fault> {
+    let message = say!("the table is neither UTF-8, UTF-16 nor GBK in line {line}");
+    Box::new(Fault::new(NOT_UTF8, 0..0, message).help(say!("save it as CSV in UTF-8")))
 }
 
 impl<R: Read> Iterator for Pieces<R> {
@@ -236,6 +249,27 @@ mod tests {
         assert_eq!(found.last().unwrap().1, ["2", "电压"]);
         table.extend_from_slice(b"3,\xff\n");
         let last = Pieces::new(table.as_slice()).last().unwrap();
+        assert_eq!(last.unwrap_err().code, NOT_UTF8);
+    }
+
+    #[test]
+    fn text_in_utf_16_is_read_in_pieces() {
+        let mut table = String::from("x,label\r\n");
+        // A character of two units lies on the border of two pieces, a unit on another.
+        while table.len() < 3 * PIECE {
+            table.push_str("1,电压𝛀\r\n");
+        }
+        let expected = rows(table.as_bytes());
+        let units = table.encode_utf16().collect::<Vec<_>>();
+        let bytes = |order: fn(u16) -> [u8; 2], mark: &[u8]| {
+            let units = units.iter().flat_map(|unit| order(*unit));
+            mark.iter().copied().chain(units).collect::<Vec<u8>>()
+        };
+        assert_eq!(rows(&bytes(u16::to_le_bytes, &[0xff, 0xfe])), expected);
+        assert_eq!(rows(&bytes(u16::to_be_bytes, &[0xfe, 0xff])), expected);
+        let mut torn = bytes(u16::to_le_bytes, &[0xff, 0xfe]);
+        torn.extend([0x00, 0xd8]);
+        let last = Pieces::new(torn.as_slice()).last().unwrap();
         assert_eq!(last.unwrap_err().code, NOT_UTF8);
     }
 

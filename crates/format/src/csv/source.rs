@@ -6,7 +6,7 @@ use std::path::Path;
 use super::encoding::{NoText, Undecodable, decode};
 use super::faults::{NOT_UTF8, UNREADABLE};
 use super::size::fits_as_text;
-use crate::files::Files;
+use crate::files::{Files, given_in_memory};
 use gumption_fault::{Fault, Rejection, Said, say};
 
 /// The text of a table that another file names, in whichever encoding it was saved.
@@ -23,9 +23,10 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
     let bytes = files.read(path).map_err(|error| {
         let mut fault = unreadable(files, path, name, &error);
         if fault.help.is_none() {
-            fault = fault.help(say!(
-                "the path starts from the folder of the file that names it"
-            ));
+            fault = fault.help(match files {
+                Files::Library(_) => given_in_memory(name),
+                _ => say!("the path starts from the folder of the file that names it"),
+            });
         }
         Rejection::new(name, "", vec![fault])
     })?;

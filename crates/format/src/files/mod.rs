@@ -26,7 +26,7 @@ pub use ledger::{reads, remember_reads, was_read_as};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Component, Path, PathBuf};
 
-use gumption_fault::nearest;
+use gumption_fault::{Said, nearest, say};
 
 /// Most bytes of a file that are read: ten million rows of eight columns. What is read is in memory as a whole,
 /// and its numbers beside it.
@@ -65,6 +65,13 @@ impl Folder<'_> {
             false => Err(Error::from(ErrorKind::NotFound)),
         }
     }
+}
+
+/// How a file that is named by another in memory is found.
+pub fn given_in_memory(name: &str) -> Said {
+    say!(
+        "what is in memory finds nothing on the disk: give the file, too (in Python, `files={{\"{name}\": its content}}`), or name the path of the file that names it, beside which it is looked for"
+    )
 }
 
 /// The names of the files in a folder of the computer.

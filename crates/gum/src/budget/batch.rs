@@ -17,7 +17,7 @@ use super::series::{self, Column, Ground};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, nearest, say};
-use gumption_format::csv::faults::NO_COLUMN;
+use gumption_format::csv::faults::{NO_COLUMN, SAME_NAME};
 use gumption_format::csv::{self, Sheet};
 use gumption_format::toml::{Reader, Stated, document, leaves_the_rest, syntax_faults};
 
@@ -111,6 +111,11 @@ impl<'f> BatchFile<'f> {
         let columns = Columns::of(sheet, place, &Ground::of(&file)).map_err(in_table)?;
         let mut faults = Vec::new();
         let kept = kept(keep, sheet, &columns.names, &mut faults);
+        let names = &columns.names;
+        let taken = kept
+            .iter()
+            .filter(|at| names_a_result(&names[**at].value, &file));
+        faults.extend(taken.map(|at| keeps_a_result(&names[*at])));
         let names = columns.names.iter().enumerate();
         let target = |(at, name): (usize, &Stated<String>)| {
             let before = faults.len();
@@ -173,6 +178,38 @@ fn kept(
         }
     }
     kept
+}
+
+/// Whether a column of results is called so, with or without its unit, under any settings: it would take the place of what is
+/// kept.
+fn names_a_result(name: &str, file: &DeTable<'_>) -> bool {
+    /// What is said of a measurand, or of it and another name.
+    const OF_ONE: [&str; 7] = ["u", "nu", "k", "U", "expanded", "lower", "upper"];
+    const OF_MORE: [&str; 4] = ["share", "contribution", "verdict", "p_c"];
+    let measurands = file
+        .get("measurand")
+        .and_then(|table| table.get_ref().as_table());
+    let is_measurand = |name: &str| measurands.is_some_and(|table| table.contains_key(name));
+    let called = name
+        .split_once('(')
+        .map(|(word, rest)| (word, rest.strip_suffix(')')));
+    let is_called = |(word, inside): (&str, Option<&str>)| {
+        let is_of_one = OF_ONE.contains(&word) && inside.is_some_and(is_measurand);
+        is_of_one || OF_MORE.contains(&word)
+    };
+    ["label", "seed", "findings", "error"].contains(&name)
+        || is_measurand(name)
+        || called.is_some_and(is_called)
+}
+
+fn keeps_a_result(column: &Stated<String>) -> Fault {
+    let name = &column.value;
+    let message = say!("the results have a column \"{name}\" of their own");
+    let fault = Fault::new(SAME_NAME, column.span.clone(), message).label(say!("to be kept"));
+    fault.help(match name.as_str() {
+        "label" => say!("the label is in the results without being kept"),
+        _ => say!("give this column another name in the table, such as \"own {name}\""),
+    })
 }
 
 /// A column of the user's own may go through to the results.

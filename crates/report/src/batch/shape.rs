@@ -4,7 +4,7 @@ use crate::rows::{self, Head};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
-use gumption_gum::budget::Budget;
+use gumption_gum::budget::{BatchFile, Budget};
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,6 +122,19 @@ impl Shapes {
 }
 
 impl Columns {
+    /// What is to be known of the contributions before covariances are made of them, as far as the budget tells it without rows.
+    pub fn caveat(self, file: &BatchFile<'_>) -> Option<Said> {
+        let budget = self.contributions.then(|| file.alone()).flatten()?;
+        let correlated = budget.groups.iter().flat_map(|group| &group.members);
+        let names = correlated.map(|at| budget.components[*at].name.as_str());
+        let names = names.collect::<Vec<_>>().join(", ");
+        (!names.is_empty()).then(|| {
+            say!(
+                "the contributions of {names} correlate: sums of products of contributions leave this out, and are no covariances of the results"
+            )
+        })
+    }
+
     /// The heads of the columns that rows of this budget have.
     pub(super) fn heads(self, budget: &Budget) -> Vec<Head> {
         let mut heads = rows::heads(budget);

@@ -10,6 +10,7 @@ use crate::budget::tables::FileTable;
 use crate::budget::{Conventions, NamedFigure, TScale};
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Said, say};
+use gumption_format::files::{Files, given_in_memory};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -25,9 +26,18 @@ pub(in crate::budget) struct Origin<'a> {
 impl Origin<'_> {
     /// The folder in words.
     pub(super) fn folder(&self) -> Said {
-        match self.directory.as_os_str().is_empty() {
-            true => say!("the current folder"),
-            false => say!("the folder {}", self.directory.display()),
+        match (self.files.files, self.directory.as_os_str().is_empty()) {
+            (Files::Library(_), true) => say!("what was given in memory"),
+            (_, true) => say!("the current folder"),
+            (_, false) => say!("the folder {}", self.directory.display()),
+        }
+    }
+
+    /// How to name a file so that it is found.
+    pub(super) fn mend(&self, name: &str) -> Said {
+        match self.files.files {
+            Files::Library(_) => given_in_memory(name),
+            _ => say!("the path starts from the folder of the budget"),
         }
     }
 }

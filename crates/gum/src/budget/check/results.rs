@@ -367,7 +367,7 @@ impl Checker<'_> {
                 };
                 fault(UNREADABLE_FILE, message)
                     .label(say!("expected a file"))
-                    .help(say!("the path starts from the folder of the budget"))
+                    .help(self.source.origin.mend(name))
             }
         };
         self.refuse(fault)

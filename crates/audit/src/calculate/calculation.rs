@@ -274,7 +274,8 @@ impl Factor {
 /// Whether the rest is at most 0.3 of the largest contribution (EA-4/02 M:2022, S9.14).
 pub fn dominates(largest: f64, u_c: f64) -> bool {
     let rest = libm::sqrt((u_c * u_c - largest * largest).max(0.0));
-    rest <= 0.3 * largest
+    // Of an infinite u_c nothing is known of the rest.
+    u_c.is_finite() && rest <= 0.3 * largest
 }
 
 /// The factor of a two-sided interval.

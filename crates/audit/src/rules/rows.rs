@@ -280,7 +280,8 @@ pub(super) fn negligible(seen: &Seen<'_>) -> Vec<Hit> {
         })
         .map(|(_, row, _)| row.label())
         .collect();
-    if small.len() < 2 || !seen.claimed.correlations.is_empty() {
+    // Beside an infinite u_c everything is small.
+    if small.len() < 2 || !u_c.is_finite() || !seen.claimed.correlations.is_empty() {
         return Vec::new();
     }
     vec![Hit::of(None, small.join(", "))]

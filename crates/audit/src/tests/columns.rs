@@ -440,3 +440,15 @@ fn a_divisor_is_that_of_the_distribution_in_every_language() {
     // How wide the top of a trapezoid is, its name does not say.
     assert!(!wrong("trapezoidal", "1.732"));
 }
+
+/// A model without a value has no u_c of which a row were a part.
+#[test]
+fn nothing_is_a_part_of_an_infinite_u_c() {
+    let text = include_str!("../../../../docs/examples/four-point-tumble.md");
+    let without_end = text.replace("(2 * R * a)", "(0.0 * R * a)");
+    assert_ne!(text, without_end);
+    for (rule, numbers) in numbers(&without_end) {
+        assert!(!numbers.contains("NaN"), "{rule}: {numbers}");
+        assert!(![75, 76].contains(&rule), "{rule}: {numbers}");
+    }
+}

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`tables`], [`entries`] | every table of the file: its keys, its reader, its schema, its reference |
+//! | [`faults`] | codes of what is refused |
 //! | `hints` | what writers of experiments mistake, also wordings of former versions |
 //! | [`procedure`] | the procedures of the library: experiments themselves |
 //! | `proposal` | from a recording to a file to look over |
@@ -11,6 +12,7 @@
 //! | `names`, `inferred`, `labels`, `columns` | what the names of the equations are; columns of the recording |
 //! | `left_out` | rows of the recording that are left out, and why |
 //! | `known`, `quantities`, `components`, `doubt` | inputs and readings; the errors that make them uncertain |
+//! | `coefficient` | the coefficient of an omitted effect, after which it is called |
 //! | `positions`, `noise`, `at_rest` | what labels stand for; what tells the noise |
 //! | `symbols`, `parameters`, `lower` | units of what is estimated; the equations |
 //! | `checked`, `words` | the checked experiment; texts in both languages |

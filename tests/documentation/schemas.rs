@@ -260,7 +260,7 @@ fn calibrations_and_plans() {
         }
     }
     assert!(
-        found > 10 && plans > 2,
+        found > 10 && plans > 2 && outlooks > 0,
         "{found} calibrations, {plans} plans, {outlooks} outlooks"
     );
 }

@@ -16,7 +16,6 @@ mod revolutions;
 mod rounded;
 mod show;
 mod square;
-mod superscript;
 mod symbol;
 mod syntax;
 mod table;

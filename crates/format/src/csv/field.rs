@@ -1,6 +1,7 @@
 //! Numbers and times in the fields of a recording.
 
 use gumption_core::calendar::{Day, SECONDS_OF_A_DAY};
+use gumption_core::letters::is_wide;
 use gumption_fault::{Said, say};
 
 use super::epoch::{Epoch, Form};
@@ -249,8 +250,7 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
             false => say!("write {point}, with a decimal point"),
         });
     }
-    let of_other_keyboard = |c| ('\u{ff01}'..='\u{ff5e}').contains(&c);
-    if let Some((number, unit)) = spelled(field).filter(|_| field.contains(of_other_keyboard))
+    if let Some((number, unit)) = spelled(field).filter(|_| field.contains(is_wide))
         && unit.is_empty()
     {
         return Some(say!("write {number}", number = number));

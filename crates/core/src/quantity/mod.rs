@@ -22,6 +22,7 @@ mod table;
 mod token;
 mod unit;
 
+pub use advice::symbol_of_name;
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
 pub use clash::{hint_for_clash, per_coulomb};
 pub use decimal::{Decimal, Rounding};

@@ -7,6 +7,7 @@ use super::error::EvaluationError;
 use super::evaluate::evaluate;
 use super::options::{MonteCarloChoice, Options};
 use crate::budget::Budget;
+use gumption_core::special::roots::try_last;
 
 /// What U of a measurand would need.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,8 +50,8 @@ pub const MOST: f64 = 1024.0;
 /// Most inputs that are asked for; the others contribute less.
 const MOST_INPUTS: usize = 40;
 
-/// Halvings: u is found to 10⁻⁹ of itself.
-const HALVINGS: usize = 30;
+/// Halvings: what is looked for is found to 10⁻⁹ of itself.
+pub(super) const HALVINGS: usize = 30;
 
 /// What every input would have to be, alone, so that U of a measurand is not above `wished`; `None` if that is no
 /// positive number or there is no such measurand.
@@ -114,13 +115,8 @@ fn needed(
             return Ok(Needed::Any);
         }
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (below + above);
-        match expanded(middle)? <= wished {
-            true => below = middle,
-            false => above = middle,
-        }
-    }
+    let reaches = |factor| expanded(factor).map(|found| found <= wished);
+    let [below, _] = try_last(below, above, HALVINGS, reaches)?;
     Ok(Needed::Below(below * u))
 }
 

@@ -226,8 +226,8 @@ fn mixed_noises_scatter_as_they_say() {
         found += usize::from(noises.bias_instability.value().is_some());
     }
     assert!(walks.len() > 50, "{}", walks.len());
-    // A walk that is not seen is below its limit, but for one of twenty.
-    assert!(too_low <= 1, "{too_low} limits are below the walk");
+    // A limit of 95 % that is below the walk in more than 8 of 60 runs would be so by chance only in 0.3 %.
+    assert!(too_low <= 8, "{too_low} limits are below the walk");
     assert!(
         found <= 12,
         "{found} of {runs} show flicker that is not there"

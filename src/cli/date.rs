@@ -4,21 +4,22 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output::Complaint;
 use gumption::fault::say;
-use gumption_core::calendar::Day;
-
-const SECONDS_OF_A_DAY: u64 = 86_400;
+use gumption_core::calendar::{Day, SECONDS_OF_A_DAY};
 
 /// Today, or the day that SOURCE_DATE_EPOCH fixes (reproducible-builds.org).
 pub(super) fn today() -> Result<String, Complaint> {
-    let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
-        Ok(text) => text.trim().parse().map_err(|_| {
+    let day = |seconds: u64| Day::at(i64::try_from(seconds).ok()? / SECONDS_OF_A_DAY);
+    let today = match std::env::var("SOURCE_DATE_EPOCH") {
+        Ok(text) => text.trim().parse().ok().and_then(day).ok_or_else(|| {
             say!("SOURCE_DATE_EPOCH is `{text}`: it must be a whole number of seconds since 1970-01-01")
         })?,
-        Err(_) => SystemTime::now()
-            .duration_since(UNIX_EPOCH)
-            .map_or(0, |since| since.as_secs()),
+        Err(_) => {
+            let since = SystemTime::now().duration_since(UNIX_EPOCH).ok();
+            let clock = since.and_then(|since| day(since.as_secs()));
+            clock.ok_or_else(|| say!("the clock of this machine shows no day of the calendar"))?
+        }
     };
-    Ok(Day::after_1970(seconds / SECONDS_OF_A_DAY).to_string())
+    Ok(today.to_string())
 }
 
 /// Accepts a day that exists, written as `2026-01-31`.

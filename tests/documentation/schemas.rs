@@ -231,9 +231,8 @@ fn saved_results() {
 
 #[test]
 fn calibrations_and_plans() {
-    let [calibration, plan, outlook] =
-        ["calibration-result", "calibration-plan", "outlook"].map(Schema::of);
-    let (mut found, mut plans, mut outlooks) = (0, 0, 0);
+    let [calibration, plan] = ["calibration-result", "calibration-plan"].map(Schema::of);
+    let mut found = 0;
     for file in relative(&common::files("experiments", "toml")) {
         if let Some(value) = json(&["calibrate", &file]) {
             calibration.holds(&value, &file);
@@ -247,22 +246,9 @@ fn calibrations_and_plans() {
         "experiments/gimbals-65-plan.toml",
         "experiments/gyro-scale-factor.toml",
     ] {
-        let value = json(&["plan", file]).expect(file);
-        match value["format"].as_str() {
-            Some(name) if name.contains("outlook") => {
-                outlook.holds(&value, file);
-                outlooks += 1;
-            }
-            _ => {
-                plan.holds(&value, file);
-                plans += 1;
-            }
-        }
+        plan.holds(&json(&["plan", file]).expect(file), file);
     }
-    assert!(
-        found > 10 && plans > 2,
-        "{found} calibrations, {plans} plans, {outlooks} outlooks"
-    );
+    assert!(found > 10, "{found} calibrations");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The house keeps its shape: what may use what, which packages a library may ask for, and how many places an
 //! addition touches. Everything is read from the sources.
 
+mod chapters;
 mod dependencies;
 mod lexer;
 mod matrix;

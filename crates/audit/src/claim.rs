@@ -305,6 +305,9 @@ pub struct Correlation {
     pub open: f64,
 }
 
+/// The factor of a rectangle that dominates, 0.95·√3 (EA-4/02 M:2022, S9.14).
+pub const K_OF_RECTANGLE: f64 = 1.65;
+
 /// The rule for k.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Coverage {
@@ -315,9 +318,9 @@ pub enum Coverage {
     Fixed(f64),
     /// From t at ν_eff for this probability.
     StudentT(f64),
-    /// 1.65 where one rectangle dominates, else 2.
+    /// [`K_OF_RECTANGLE`] where one rectangle dominates, else 2.
     Rectangle,
-    /// 1.65, because one rectangle dominates: so the sheet says.
+    /// [`K_OF_RECTANGLE`], because one rectangle dominates: so the sheet says.
     OfRectangle,
 }
 

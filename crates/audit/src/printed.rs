@@ -1,5 +1,6 @@
 //! Figures as they are printed: value and half a unit in the last place.
 
+use gumption_core::letters;
 use gumption_core::quantity::Decimal;
 
 /// Where a figure stands: sheet, row and column, counted from 0.
@@ -432,16 +433,7 @@ pub(crate) fn clean(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut raised = false;
     for c in text.chars() {
-        let lowered = match c {
-            '⁰' => Some('0'),
-            '¹' => Some('1'),
-            '²' => Some('2'),
-            '³' => Some('3'),
-            '⁴'..='⁹' => char::from_digit(c as u32 - '⁰' as u32, 10),
-            '⁻' => Some('-'),
-            _ => None,
-        };
-        if let Some(lowered) = lowered {
+        if let Some(lowered) = letters::lowered(c) {
             if !raised {
                 out.push('^');
             }
@@ -455,23 +447,11 @@ pub(crate) fn clean(text: &str) -> String {
             continue;
         }
         out.push(match c {
-            '−' | '－' | '﹣' | '‒' | '–' | '—' => '-',
+            '−' | '﹣' | '‒' | '–' | '—' => '-',
             '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{2007}' | '\u{3000}' | '\t' => ' ',
-            '＝' => '=',
-            '：' => ':',
-            '；' => ';',
-            '，' => ',',
-            '（' => '(',
-            '）' => ')',
-            '％' => '%',
-            '＋' => '+',
-            '．' => '.',
-            '／' => '/',
             'μ' => 'µ',
             '≅' | '≃' | '≒' | '≌' => '≈',
-            '０'..='９' => char::from_digit(c as u32 - '０' as u32, 10).unwrap_or(c),
-            'Ａ'..='Ｚ' | 'ａ'..='ｚ' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
-            c => c,
+            c => letters::narrow(c),
         });
     }
     out

@@ -1,5 +1,12 @@
 //! The Gregorian calendar.
 
+/// Seconds of a day without leap second.
+pub const SECONDS_OF_A_DAY: i64 = 86_400;
+
+const DAYS_OF_400_YEARS: i64 = 146_097;
+/// From the first of March of the year 0.
+const DAYS_TO_1970: i64 = 719_468;
+
 /// How many days a month (1 to 12) of a year has.
 pub fn days_of(year: u64, month: u64) -> u64 {
     let leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
@@ -51,42 +58,25 @@ impl Day {
         let months = (month + 9) % 12;
         let of_year = (153 * months + 2) / 5 + day - 1;
         let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-        365 * year + leap_days + of_year - 719_468
+        365 * year + leap_days + of_year - DAYS_TO_1970
     }
 
-    /// The day that is so many days after 1970-01-01, or before it.
-    pub fn at(days: i64) -> Day {
-        const DAYS_OF_400_YEARS: i64 = 146_097;
-        let periods = days.div_euclid(DAYS_OF_400_YEARS);
-        let day = Day::after_1970(days.rem_euclid(DAYS_OF_400_YEARS).unsigned_abs());
-        let year = (day.year.cast_signed() + 400 * periods).clamp(0, 9999);
-        Day {
-            year: year.unsigned_abs(),
-            ..day
-        }
-    }
-
-    /// The day that is so many days after 1970-01-01.
-    pub fn after_1970(days: u64) -> Day {
-        // Periods of 400 years are alike; the count of years and months in the last one is short.
-        const DAYS_OF_400_YEARS: u64 = 146_097;
-        let mut year = 1970 + 400 * (days / DAYS_OF_400_YEARS);
-        let mut left = days % DAYS_OF_400_YEARS;
-        let length = |year| 337 + days_of(year, 2);
-        while left >= length(year) {
-            left -= length(year);
-            year += 1;
-        }
-        let mut month = 1;
-        while left >= days_of(year, month) {
-            left -= days_of(year, month);
-            month += 1;
-        }
-        Day {
-            year,
-            month,
-            day: left + 1,
-        }
+    /// The day that is so many days after 1970-01-01, or before it; nothing where its year has no four digits.
+    pub fn at(days: i64) -> Option<Day> {
+        // Periods of 400 years that begin in March are alike, and have their leap days at the end of four years, which have none
+        // at the end of a century, but for the last one.
+        let since_march_of_0 = days.checked_add(DAYS_TO_1970)?;
+        let periods = since_march_of_0.div_euclid(DAYS_OF_400_YEARS);
+        let of_period = since_march_of_0.rem_euclid(DAYS_OF_400_YEARS);
+        let leap_days = of_period / 1460 - of_period / 36_524 + of_period / 146_096;
+        let year = (of_period - leap_days) / 365;
+        let of_year = of_period - (365 * year + year / 4 - year / 100);
+        let months = (5 * of_year + 2) / 153;
+        let day = of_year - (153 * months + 2) / 5 + 1;
+        let month = (months + 2) % 12 + 1;
+        let year = 400 * periods + year + i64::from(month <= 2);
+        let number = |of: i64| u64::try_from(of).ok();
+        Day::of(number(year)?, number(month)?, number(day)?)
     }
 }
 
@@ -124,8 +114,9 @@ mod tests {
 
     #[test]
     fn days_are_counted_from_1970() {
-        let day = |days| Day::after_1970(days).to_string();
+        let day = |days| Day::at(days).map(|day| day.to_string()).unwrap_or_default();
         assert_eq!(day(0), "1970-01-01");
+        assert_eq!(day(-1), "1969-12-31");
         assert_eq!(day(59), "1970-03-01");
         // 2000 was a leap year, 2100 is none.
         assert_eq!(day(11_016), "2000-02-29");
@@ -133,14 +124,34 @@ mod tests {
         assert_eq!(day(47_540), "2100-02-28");
         assert_eq!(day(47_541), "2100-03-01");
         assert_eq!(day(146_097), "2370-01-01");
-        for days in [0, 59, 11_016, 20_454, 47_541, 146_097] {
-            assert_eq!(Day::after_1970(days).since_1970(), days as i64);
-        }
         // The first day of the Gregorian calendar, and that of Julian day 2 451 545 (J2000) less its 10 957 days since 1970.
         let since = |text| Day::read(text).map(Day::since_1970);
         assert_eq!(since("1582-10-15"), Some(2_299_161 - 2_440_588));
         assert_eq!(since("1969-12-31"), Some(-1));
         assert_eq!(since("2000-01-01"), Some(10_957));
+    }
+
+    /// Each day is the one after the last, from the first with four digits to the last.
+    #[test]
+    fn every_day_follows_the_one_before() {
+        let first = Day::of(0, 1, 1).expect("a day").since_1970();
+        let last = Day::of(9999, 12, 31).expect("a day").since_1970();
+        let (mut year, mut month, mut day) = (0, 1, 1);
+        for days in first..=last {
+            let found = Day::at(days);
+            assert_eq!(found, Some(Day { year, month, day }));
+            assert_eq!(found.map(Day::since_1970), Some(days));
+            day += 1;
+            if day > days_of(year, month) {
+                (month, day) = (month + 1, 1);
+            }
+            if month > 12 {
+                (year, month) = (year + 1, 1);
+            }
+        }
+        for beyond in [first - 1, last + 1, i64::MIN, i64::MAX] {
+            assert_eq!(Day::at(beyond), None, "{beyond}");
+        }
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! E_n of each row (ISO/IEC 17043, ISO 13528), against a stated reference or the others of its group, and the rows that stand
 //! apart.
 
-use crate::deviation::{Deviation, Others, SIGNIFICANCE};
+use gumption_core::statistics::norm;
+
+use crate::deviation::{Deviation, Others, SIGNIFICANCE, Weights};
 use crate::group::{GroupResult, Members};
 use crate::parallel::in_order;
 use crate::results::{MeasurandValues, Values};
@@ -211,8 +213,9 @@ fn agreeing(values: &Values, members: &Members, [tests, threads]: [usize; 2]) ->
     if rows.len() < 3 {
         return vec![true; rows.len()];
     }
-    let inverse: f64 = rows.iter().map(|row| 1.0 / values.u[*row]).sum();
-    let u = (std::f64::consts::FRAC_PI_2 * rows.len() as f64).sqrt() / inverse;
+    let weights = Weights::of(values, rows.iter().copied());
+    let inverse: f64 = rows.iter().map(|row| 1.0 / weights.u(*row)).sum();
+    let u = weights.unit * ((std::f64::consts::FRAC_PI_2 * rows.len() as f64).sqrt() / inverse);
     let is_probable = |probability: f64| tests as f64 * probability >= SIGNIFICANCE;
     let agrees = |row: usize| {
         let from_median = Deviation::of(values, row, (members.median, u, f64::INFINITY));
@@ -226,5 +229,5 @@ fn agreeing(values: &Values, members: &Members, [tests, threads]: [usize; 2]) ->
 
 /// The expanded uncertainty of a difference.
 pub(crate) fn of_difference(one: f64, other: f64) -> f64 {
-    (one * one + other * other).sqrt()
+    norm([one, other].into_iter())
 }

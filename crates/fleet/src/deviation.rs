@@ -1,6 +1,7 @@
 //! A value beside others that should agree with it: their weighted mean without it, the difference, and how probable that is.
 
 use gumption_core::special::{normal_sf, student_t_score, student_t_sf};
+use gumption_core::statistics::{effective_freedom, norm, power_of_two};
 
 use crate::results::Values;
 
@@ -8,9 +9,46 @@ use crate::results::Values;
 /// certificates state their coverage, too.
 pub const SIGNIFICANCE: f64 = 0.05;
 
+/// Weights 1/u², of u in a unit of their own: u⁻² in that of the table leaves the range of doubles long before u does.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weights<'v> {
+    values: &'v Values,
+    /// A power of two near the smallest u of the rows: a division by it is exact.
+    pub unit: f64,
+}
+
+impl<'v> Weights<'v> {
+    pub fn of(values: &'v Values, rows: impl Iterator<Item = usize>) -> Weights<'v> {
+        let smallest = rows.map(|row| values.u[row]).fold(f64::INFINITY, f64::min);
+        Weights {
+            values,
+            unit: power_of_two(smallest),
+        }
+    }
+
+    /// 1/u² of a row.
+    pub fn of_row(&self, row: usize) -> f64 {
+        let u = self.u(row);
+        1.0 / (u * u)
+    }
+
+    /// The u of a row, in the unit of the weights.
+    pub fn u(&self, row: usize) -> f64 {
+        self.values.u[row] / self.unit
+    }
+
+    /// Σ w f over some rows.
+    pub fn sum(&self, rows: &[usize], of_row: impl Fn(usize) -> f64) -> f64 {
+        rows.iter()
+            .map(|row| self.of_row(*row) * of_row(*row))
+            .sum()
+    }
+}
+
 /// Sums of values with the weights 1/u², from which one may be taken away again.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sums {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sums<'v> {
+    weights: Weights<'v>,
     /// What is near the values: differences from it keep their digits.
     origin: f64,
     pub count: usize,
@@ -34,14 +72,24 @@ pub(crate) struct Deviation {
     pub dof: f64,
 }
 
-impl Sums {
-    pub fn of(values: &Values, rows: impl Iterator<Item = usize>, origin: f64) -> Sums {
+impl<'v> Sums<'v> {
+    pub fn of(
+        values: &'v Values,
+        rows: impl Iterator<Item = usize> + Clone,
+        origin: f64,
+    ) -> Sums<'v> {
+        let weights = Weights::of(values, rows.clone());
         let mut sums = Sums {
+            weights,
             origin,
-            ..Sums::default()
+            count: 0,
+            weight: 0.0,
+            first: 0.0,
+            looseness: 0.0,
+            scatter: 0.0,
         };
         for row in rows {
-            let weight = weight(values, row);
+            let weight = weights.of_row(row);
             sums.count += 1;
             sums.weight += weight;
             sums.first += weight * (values.estimate[row] - origin);
@@ -51,9 +99,11 @@ impl Sums {
         sums
     }
 
-    fn without(&self, values: &Values, row: usize) -> Sums {
-        let weight = weight(values, row);
+    fn without(&self, row: usize) -> Sums<'v> {
+        let values = self.weights.values;
+        let weight = self.weights.of_row(row);
         Sums {
+            weights: self.weights,
             origin: self.origin,
             count: self.count - 1,
             weight: self.weight - weight,
@@ -61,6 +111,11 @@ impl Sums {
             looseness: self.looseness - weight / values.dof[row],
             scatter: self.scatter - weight * weight / values.dof[row],
         }
+    }
+
+    /// What a row has of the weights of all.
+    pub fn share(&self, row: usize) -> f64 {
+        self.weights.of_row(row) / self.weight
     }
 
     pub fn mean(&self) -> f64 {
@@ -71,7 +126,7 @@ impl Sums {
     /// much (Meier, Biometrics 9 (1953) 59).
     pub fn u(&self) -> f64 {
         let loose = self.looseness / self.weight - self.scatter / (self.weight * self.weight);
-        ((1.0 + 4.0 * loose.max(0.0)) / self.weight).sqrt()
+        self.weights.unit * ((1.0 + 4.0 * loose.max(0.0)) / self.weight).sqrt()
     }
 
     /// Degrees of freedom of the mean, whose terms are w x/W: W²/Σ(w²/ν).
@@ -83,23 +138,19 @@ impl Sums {
     }
 }
 
-pub(crate) fn weight(values: &Values, row: usize) -> f64 {
-    1.0 / (values.u[row] * values.u[row])
-}
-
 /// Each of these rows beside the weighted mean of the others among them.
 #[derive(Debug)]
 pub(crate) struct Others<'v> {
     values: &'v Values,
-    sums: Sums,
+    sums: Sums<'v>,
     /// The row that weighs more than all others together: a difference of sums would leave nothing of these.
-    heaviest: Option<(usize, Sums)>,
+    heaviest: Option<(usize, Sums<'v>)>,
 }
 
 impl<'v> Others<'v> {
     pub fn of(values: &'v Values, rows: &[usize], origin: f64) -> Others<'v> {
         let sums = Sums::of(values, rows.iter().copied(), origin);
-        let heavy = |row: &&usize| 2.0 * weight(values, **row) > sums.weight;
+        let heavy = |row: &&usize| 2.0 * sums.weights.of_row(**row) > sums.weight;
         let heaviest = rows.iter().find(heavy).map(|heavy| {
             let others = rows.iter().copied().filter(|row| row != heavy);
             (*heavy, Sums::of(values, others, origin))
@@ -112,7 +163,7 @@ impl<'v> Others<'v> {
     }
 
     /// All of them together.
-    pub fn sums(&self) -> &Sums {
+    pub fn sums(&self) -> &Sums<'v> {
         &self.sums
     }
 
@@ -121,7 +172,7 @@ impl<'v> Others<'v> {
         let others = match &self.heaviest {
             _ if !is_one => self.sums,
             Some((heavy, others)) if *heavy == row => *others,
-            _ => self.sums.without(self.values, row),
+            _ => self.sums.without(row),
         };
         let other = (others.count > 0).then(|| (others.mean(), others.u(), others.dof()));
         other.map(|other| Deviation::of(self.values, row, other))
@@ -132,16 +183,11 @@ impl Deviation {
     /// Of the value of a row from another with its u and ν.
     pub fn of(values: &Values, row: usize, (other, u_other, dof): (f64, f64, f64)) -> Deviation {
         let u = values.u[row];
-        let variance = u * u + u_other * u_other;
-        let scatter = u.powi(4) / values.dof[row] + u_other.powi(4) / dof;
         Deviation {
             other,
             difference: values.estimate[row] - other,
-            u: variance.sqrt(),
-            dof: match scatter > 0.0 {
-                true => variance * variance / scatter,
-                false => f64::INFINITY,
-            },
+            u: norm([u, u_other].into_iter()),
+            dof: effective_freedom([(u, values.dof[row]), (u_other, dof)].into_iter()),
         }
     }
 

@@ -1,10 +1,11 @@
 //! Drift between calibrations: the same device at several dates.
 
 use crate::agreement::{LISTED, of_difference};
-use crate::deviation::{SIGNIFICANCE, weight};
+use crate::deviation::{SIGNIFICANCE, Weights};
 use crate::parallel::in_order;
 use crate::results::Values;
 use gumption_core::special::student_t_sf;
+use gumption_core::statistics::{effective_freedom, norm, root_mean_square};
 
 /// Days of a year (Julian year, unit a of ISO 80000-3).
 pub const DAYS_OF_A_YEAR: f64 = 365.25;
@@ -106,41 +107,31 @@ struct Device {
 impl Device {
     /// Of rows in the order of their dates; nothing where all of them have one.
     fn of(values: &Values, dates: &[f64], rows: Vec<usize>, group: usize) -> Option<Device> {
-        let sum: f64 = rows.iter().map(|row| weight(values, *row)).sum();
+        let weights = Weights::of(values, rows.iter().copied());
+        let sum = weights.sum(&rows, |_| 1.0);
         let years = |row: usize| (dates[row] - dates[rows[0]]) / DAYS_OF_A_YEAR;
-        let mean = rows
-            .iter()
-            .map(|row| weight(values, *row) * years(*row))
-            .sum::<f64>()
-            / sum;
-        let spread = rows
-            .iter()
-            .map(|row| weight(values, *row) * (years(*row) - mean).powi(2));
-        let spread = Some(spread.sum::<f64>()).filter(|spread| *spread > 0.0)?;
+        let mean = weights.sum(&rows, years) / sum;
+        let spread = weights.sum(&rows, |row| (years(row) - mean).powi(2));
+        let spread = Some(spread).filter(|spread| *spread > 0.0)?;
         let origin = values.estimate[rows[0]];
+        // How the rate follows each estimate.
+        let c = |row: usize| weights.of_row(row) * (years(row) - mean) / spread;
+        let parts =
+            |of: &[f64]| -> Vec<f64> { rows.iter().map(|row| c(*row) * of[*row]).collect() };
+        let [u, expanded] = [&values.u, &values.expanded].map(|of| parts(of));
+        let dofs = rows.iter().map(|row| values.dof[*row]);
+        let differences = rows
+            .iter()
+            .map(|row| c(*row) * (values.estimate[*row] - origin));
         let mut device = Device {
             group,
-            rate: 0.0,
-            u: 0.0,
-            expanded: 0.0,
-            dof: 0.0,
+            rate: differences.sum(),
+            u: norm(u.iter().copied()),
+            expanded: norm(expanded.iter().copied()),
+            dof: effective_freedom(u.iter().copied().zip(dofs)),
             en: 0.0,
             rows,
         };
-        for row in device.rows.iter().copied() {
-            let years = (dates[row] - dates[device.rows[0]]) / DAYS_OF_A_YEAR;
-            let c = weight(values, row) * (years - mean) / spread;
-            device.rate += c * (values.estimate[row] - origin);
-            device.u += (c * values.u[row]).powi(2);
-            device.expanded += (c * values.expanded[row]).powi(2);
-            device.dof += (c * values.u[row]).powi(4) / values.dof[row];
-        }
-        // Welch–Satterthwaite (GUM G.4.1).
-        device.dof = match device.dof > 0.0 {
-            true => device.u * device.u / device.dof,
-            false => f64::INFINITY,
-        };
-        (device.u, device.expanded) = (device.u.sqrt(), device.expanded.sqrt());
         let largest = |one: f64, other: f64| if other.abs() > one.abs() { other } else { one };
         device.en = device.successive(values).fold(0.0, largest);
         Some(device)
@@ -217,14 +208,10 @@ pub(crate) fn drift<'n>(
     });
     found.apart = drifting.collect();
     let courses = order.iter().take(DRAWN).map(|(probability, one)| {
-        let sum: f64 = one.rows.iter().map(|row| weight(values, *row)).sum();
+        let weights = Weights::of(values, one.rows.iter().copied());
         let origin = values.estimate[one.rows[0]];
         let from_origin = |row: usize| values.estimate[row] - origin;
-        let mean = one
-            .rows
-            .iter()
-            .map(|row| weight(values, *row) * from_origin(*row));
-        let mean = mean.sum::<f64>() / sum;
+        let mean = weights.sum(&one.rows, from_origin) / weights.sum(&one.rows, |_| 1.0);
         let point = |row: &usize| [dates[*row], from_origin(*row) - mean, values.expanded[*row]];
         Course {
             device: device(one.rows[0]).to_owned(),
@@ -240,8 +227,7 @@ impl GroupDrift {
     fn of(values: &Values, devices: &[Device], threads: usize) -> GroupDrift {
         let count = devices.len() as f64;
         let mean = devices.iter().map(|one| one.rate).sum::<f64>() / count;
-        let squares: f64 = devices.iter().map(|one| (one.rate - mean).powi(2)).sum();
-        let u: f64 = devices.iter().map(|one| one.u * one.u).sum();
+        let deviations = || devices.iter().map(|one| one.rate - mean);
         let all: Vec<&Device> = devices.iter().collect();
         let outside = |one: &Device| one.beyond(one.expanded);
         let mut expected = 0.0;
@@ -250,8 +236,8 @@ impl GroupDrift {
         GroupDrift {
             devices: devices.len(),
             mean,
-            s: (devices.len() > 1).then(|| (squares / (count - 1.0)).sqrt()),
-            u: (u / count).sqrt(),
+            s: (devices.len() > 1).then(|| root_mean_square(deviations(), count - 1.0)),
+            u: root_mean_square(devices.iter().map(|one| one.u), count),
             beyond: devices
                 .iter()
                 .filter(|one| one.rate.abs() > one.expanded)

@@ -1,9 +1,9 @@
 //! One measurand in one group of rows: where the estimates lie, whether they scatter as their u says, what makes u large.
 
 use gumption_core::special::{chi_squared_sf, f_cdf, f_sf};
-use gumption_core::statistics::median;
+use gumption_core::statistics::{median, root_mean_square};
 
-use crate::deviation::{Others, SIGNIFICANCE, weight};
+use crate::deviation::{Others, SIGNIFICANCE};
 use crate::parallel::in_order;
 use crate::results::{MeasurandValues, Values};
 
@@ -12,6 +12,10 @@ use crate::results::{MeasurandValues, Values};
 pub struct GroupResult {
     /// Rows with an estimate.
     pub values: usize,
+    /// Rows without one, though no fault says why: the field is empty, or holds what instruments write of an overload.
+    pub missing: usize,
+    /// Rows with an estimate of which no u above zero is known: they have no weight, and no test.
+    pub unweighed: usize,
     /// Mean of the estimates.
     pub mean: f64,
     /// Their experimental standard deviation (GUM 4.2.2); of one there is none.
@@ -97,6 +101,8 @@ pub struct Component {
 /// Rows of a group, with what several chapters need of them.
 #[derive(Debug)]
 pub(crate) struct Members {
+    /// How many have a result without an estimate.
+    pub missing: usize,
     /// Those with an estimate.
     pub valued: Vec<usize>,
     /// Those of them with an uncertainty that weighs them.
@@ -106,16 +112,14 @@ pub(crate) struct Members {
 }
 
 impl Members {
-    pub fn of(values: &Values, rows: &[usize]) -> Members {
-        let valued = rows
-            .iter()
-            .copied()
-            .filter(|row| values.estimate[*row].is_finite());
-        let valued: Vec<usize> = valued.collect();
+    pub fn of(values: &Values, rows: &[usize], has_result: impl Fn(usize) -> bool) -> Members {
+        let is_valued = |row: &usize| values.estimate[*row].is_finite();
+        let (valued, without): (Vec<usize>, Vec<usize>) = rows.iter().copied().partition(is_valued);
         let weighed = valued.iter().copied().filter(|row| values.weighs(*row));
         let weighed: Vec<usize> = weighed.collect();
         let median = median(weighed.iter().map(|row| values.estimate[*row]).collect());
         Members {
+            missing: without.into_iter().filter(|row| has_result(*row)).count(),
             valued,
             weighed,
             median,
@@ -136,17 +140,19 @@ impl GroupResult {
         let estimates = || members.valued.iter().map(|row| values.estimate[*row]);
         let origin = estimates().next().unwrap_or(f64::NAN);
         let mean = origin + estimates().map(|x| x - origin).sum::<f64>() / count as f64;
-        let squares: f64 = estimates().map(|x| (x - mean) * (x - mean)).sum();
+        let deviations = || estimates().map(|x| x - mean);
         let known = |all: &[f64]| {
             let known = members.weighed.iter().map(|row| all[*row]);
             let known: Vec<f64> = known.filter(|x| x.is_finite()).collect();
-            (known.iter().map(|x| x * x).sum::<f64>() / known.len() as f64).sqrt()
+            root_mean_square(known.iter().copied(), known.len() as f64)
         };
         let ends = [f64::INFINITY, f64::NEG_INFINITY];
         GroupResult {
             values: count,
+            missing: members.missing,
+            unweighed: count - members.weighed.len(),
             mean,
-            s: (count > 1).then(|| (squares / (count - 1) as f64).sqrt()),
+            s: (count > 1).then(|| root_mean_square(deviations(), (count - 1) as f64)),
             range: estimates().fold(ends, |[low, high], x| [low.min(x), high.max(x)]),
             u: known(&values.u),
             expanded: known(&values.expanded),
@@ -177,7 +183,7 @@ impl Consistency {
         in_order(rows, threads, score, |row, score| {
             if let Some(score) = score {
                 scores(score);
-                let others = 1.0 - weight(values, row) / sums.weight;
+                let others = 1.0 - sums.share(row);
                 chi_squared += others * score * score;
             }
         });

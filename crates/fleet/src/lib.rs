@@ -155,13 +155,14 @@ pub fn fleet_of_columns(
 
 fn found(results: &Results, wanted: &Wanted) -> Fleet {
     let groups = rows_of_groups(&results.groups);
+    let has_result = |row: usize| results.errors.get(row).is_empty();
     let members: Vec<Vec<Members>> = results
         .measurands
         .iter()
         .map(|one| {
             let rows = groups
                 .iter()
-                .map(|(_, rows)| Members::of(&one.values, rows));
+                .map(|(_, rows)| Members::of(&one.values, rows, has_result));
             rows.collect()
         })
         .collect();

@@ -89,6 +89,11 @@ impl Texts {
 }
 
 impl Levels {
+    /// The text of a row.
+    pub fn get(&self, row: usize) -> &str {
+        &self.names[self.of_row[row] as usize]
+    }
+
     fn push(&mut self, text: &str) {
         let level = match self.known.get(text) {
             Some(level) => *level,

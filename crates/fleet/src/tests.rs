@@ -48,6 +48,68 @@ fn a_row_without_k_is_not_tested() {
     assert!(agreement.expected.is_finite(), "{agreement:?}");
 }
 
+/// Five items with u and U of four degrees of freedom, in a unit 2^exponent times as small: every probability stays.
+#[test]
+fn the_unit_decides_nothing() {
+    let rows = [1.0, 1.3, 0.9, 1.05, 1.6, 1.2];
+    let devices = ["a", "b", "c", "d", "e", "a"];
+    let in_unit = |exponent: i32| {
+        let scale = 2.0_f64.powi(exponent);
+        let row = |(at, x): (usize, &f64)| {
+            let [x, u, expanded] = [*x, 0.1, 0.25].map(|x| x * scale);
+            format!("{},{x:e},{u:e},{expanded:e},4,202{at}-03-01", devices[at])
+        };
+        let rows: Vec<String> = rows.iter().enumerate().map(row).collect();
+        let table = format!("label,K,u(K),U(K),nu(K),date\n{}\n", rows.join("\n"));
+        let wanted = Wanted {
+            date: Some("date".to_owned()),
+            ..Wanted::default()
+        };
+        (scale, found(&table, &wanted).measurands.remove(0))
+    };
+    let (_, plain) = in_unit(0);
+    assert_eq!(plain.agreement.named, 1);
+    let drift = plain.drift.as_ref().expect("dates");
+    assert_eq!(drift.devices, 1);
+    for exponent in [-1000, -700, -300, -60, 60, 120] {
+        let (scale, other) = in_unit(exponent);
+        let [own, scaled] = [&plain, &other].map(|one| &one.groups[0]);
+        assert_eq!(scaled.s.map(|s| s / scale), own.s, "2^{exponent}");
+        assert_eq!([scaled.u / scale, scaled.mean / scale], [own.u, own.mean]);
+        let [own, scaled] = [own, scaled].map(|group| group.consistency.expect("weights"));
+        assert_eq!([scaled.mean / scale, scaled.u / scale], [own.mean, own.u]);
+        assert_eq!(
+            [scaled.chi_squared, scaled.birge, scaled.p_larger],
+            [own.chi_squared, own.birge, own.p_larger],
+            "2^{exponent}"
+        );
+        assert_eq!(other.agreement.expected, plain.agreement.expected);
+        for (own, scaled) in plain.agreement.apart.iter().zip(&other.agreement.apart) {
+            assert_eq!((scaled.en, scaled.probability), (own.en, own.probability));
+            assert_eq!(scaled.other / scale, own.other);
+        }
+        let courses = |one: &Measurand| one.drift.as_ref().expect("dates").expected;
+        assert_eq!(courses(&other), drift.expected, "2^{exponent}");
+        let group = |one: &Measurand| one.drift.as_ref().expect("dates").groups[0].clone();
+        assert_eq!(group(&other).mean / scale, group(&plain).mean);
+        assert_eq!(group(&other).u / scale, group(&plain).u);
+        let apart = [&plain, &other].map(|one| one.agreement.apart.len());
+        assert_eq!(apart[0], apart[1]);
+    }
+}
+
+/// Of nine rows one has a fault, two no estimate, one of them by an overload, three an estimate and no u that weighs it.
+#[test]
+fn what_is_left_out_is_counted() {
+    let table = "label,y,u(y),U(y),error\na,1,0.1,0.2,\nb,1.1,0.1,0.2,\nc,,,,\nd,9.9e37,0.1,0.2,\ne,1,0,0,\n\
+                 f,1,,0.2,\ng,1,1e38,0.2,\nh,,,,B0101: no\ni,0.9,0.1,0.2,\n";
+    let found = found(table, &Wanted::default());
+    let group = &found.measurands[0].groups[0];
+    assert_eq!((found.rows, group.values), (9, 6));
+    assert_eq!((group.missing, group.unweighed), (2, 3));
+    assert_eq!(group.consistency.expect("three").count, 3);
+}
+
 /// By hand: 1, 2, 4 with u = 1, 1, 2: weights 1, 1, 1/4, mean 4/2.25, χ² = Σ w x² − (Σ w x)²/Σ w.
 #[test]
 fn a_group_is_what_arithmetic_makes_of_it() {

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use gumption_core::letters;
+
 /// A number, as TOML writes it, and what stands behind it, of a text that writes the number in another way.
 pub(crate) fn spelled(text: &str) -> Option<(String, String)> {
     let narrow: String = text
@@ -69,11 +71,10 @@ pub(crate) fn range(text: &str) -> Option<(String, String, String)> {
 /// The digits and signs of another keyboard.
 fn narrow(c: char) -> char {
     match c {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
         '。' => '.',
         '−' | '–' => '-',
         '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{3000}' => ' ',
-        c => c,
+        c => letters::narrow(c),
     }
 }
 
@@ -132,19 +133,9 @@ fn power_of_ten(text: &str) -> Option<(String, &str)> {
         .trim_start()
         .strip_prefix(['x', 'X', '×', '·', '⋅', '*'])?;
     let behind = behind.trim_start().strip_prefix("10")?;
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-    let raised: String = behind
-        .chars()
-        .map_while(|c| match c {
-            '⁻' => Some('-'),
-            c => RAISED
-                .chars()
-                .position(|r| r == c)
-                .and_then(|d| char::from_digit(d as u32, 10)),
-        })
-        .collect();
+    let raised: String = behind.chars().map_while(letters::lowered).collect();
     if !raised.is_empty() {
-        let rest = behind.trim_start_matches(|c| c == '⁻' || RAISED.contains(c));
+        let rest = behind.trim_start_matches(|c| letters::lowered(c).is_some());
         return Some((raised, rest));
     }
     // `x10-4` has lost its sign of a power.

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | [`level`](mod@level) | the instruction set of this processor, found once |
 //! | [`generator`] | 16 interleaved xoshiro256++ generators; any chunk of trials can be drawn alone |
-//! | [`Words`] | a generator word by word, as an `Rng` of the crate `rand` |
+//! | `words` | a generator word by word, as an `Rng` of the crate `rand` |
 //! | [`elementary`] | `exp`, `ln`, `sin`, `cos` as branch-free polynomial kernels |
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sum`] | sums of several terms in one pass |
@@ -18,6 +18,7 @@
 //! | [`normal_quantile`] | coefficients of the normal quantile (Wichura's algorithm AS 241) |
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
 //! | [`kernel`] | averages of distribution functions over points |
+//! | [`triangle`] | triangular factors times blocks: independent normals become correlated ones |
 //! | [`products`] | products of rows, subtracted from a symmetric matrix |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`separate`] | the values outside of two stretches, and counts of the others |

@@ -143,9 +143,8 @@ mod tests {
     #[test]
     fn without_a_standard_deviation_there_are_none() {
         let mut case = case();
-        if let Some(indices) = &mut case.evaluation.indices {
-            indices.measurands = vec![None];
-        }
+        let indices = case.evaluation.indices.as_mut();
+        indices.expect("the case has indices").measurands = vec![None];
         let blocks = blocks(&case.report(Language::English), 0);
         assert!(matches!(
             &blocks[..],

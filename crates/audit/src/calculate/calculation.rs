@@ -4,8 +4,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
+use gumption_core::statistics::effective_freedom_of;
 
-use crate::claim::Correlation;
+use crate::claim::{Correlation, K_OF_RECTANGLE};
 
 /// A calculation of U, right or with slips in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +90,7 @@ pub enum Factor {
     StudentT(f64),
     /// t at other degrees of freedom: probability, ν.
     At(f64, f64),
-    /// 1.65 where one rectangle dominates, else 2.
+    /// [`K_OF_RECTANGLE`] where one rectangle dominates, else 2.
     Rectangle,
 }
 
@@ -200,13 +201,11 @@ impl Calculation {
         let u_c = self.combine(&parts);
         let nu_eff = match self.freedom {
             Freedom::Given(nu) => nu,
-            _ => welch(
-                u_c,
-                parts
-                    .iter()
-                    .zip(&self.lines)
-                    .map(|(part, line)| (*part, line.dof)),
-            ),
+            _ => {
+                let lines = parts.iter().zip(&self.lines);
+                let told = lines.filter(|(_, line)| line.dof > 0.0);
+                effective_freedom_of(u_c, told.map(|(part, line)| (*part, line.dof)))
+            }
         };
         let k = self.factor.value(self.whole(nu_eff), &parts, u_c);
         let expanded = self.report.multiple(k) * u_c;
@@ -255,19 +254,6 @@ impl Calculation {
     }
 }
 
-/// Effective degrees of freedom (JCGM 100, G.4.1).
-pub fn welch(u_c: f64, parts: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let sum: f64 = parts
-        .filter(|(_, dof)| dof.is_finite() && *dof > 0.0)
-        .map(|(part, dof)| libm::pow(part, 4.0) / dof)
-        .sum();
-    if sum > 0.0 {
-        libm::pow(u_c, 4.0) / sum
-    } else {
-        f64::INFINITY
-    }
-}
-
 impl Factor {
     fn value(self, nu: f64, parts: &[f64], u_c: f64) -> f64 {
         match self {
@@ -276,7 +262,10 @@ impl Factor {
             Factor::At(p, nu) => t(p, nu),
             Factor::Rectangle => {
                 let largest = parts.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-                if dominates(largest, u_c) { 1.65 } else { 2.0 }
+                match dominates(largest, u_c) {
+                    true => K_OF_RECTANGLE,
+                    false => 2.0,
+                }
             }
         }
     }
@@ -285,7 +274,8 @@ impl Factor {
 /// Whether the rest is at most 0.3 of the largest contribution (EA-4/02 M:2022, S9.14).
 pub fn dominates(largest: f64, u_c: f64) -> bool {
     let rest = libm::sqrt((u_c * u_c - largest * largest).max(0.0));
-    rest <= 0.3 * largest
+    // Of an infinite u_c nothing is known of the rest.
+    u_c.is_finite() && rest <= 0.3 * largest
 }
 
 /// The factor of a two-sided interval.

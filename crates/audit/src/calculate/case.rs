@@ -2,7 +2,7 @@
 
 use gumption_core::quantity::Unit;
 
-use crate::claim::{Claimed, Coverage, Row, Stated};
+use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE, Row, Stated};
 use crate::printed::Printed;
 use crate::read::{FIXED, probability_of_factor, unusual_level, usual_levels};
 use crate::units;
@@ -165,7 +165,7 @@ pub fn factors(claimed: &Claimed) -> Vec<Factor> {
         Coverage::Fixed(k) => vec![Factor::Fixed(k)],
         Coverage::StudentT(p) => vec![Factor::StudentT(p)],
         Coverage::Rectangle => vec![Factor::Rectangle],
-        Coverage::OfRectangle => vec![Factor::Fixed(1.65)],
+        Coverage::OfRectangle => vec![Factor::Fixed(K_OF_RECTANGLE)],
         Coverage::Unstated => match unusual_level(claimed) {
             Some(level) => factors_of(level, claimed),
             None => usual_factors(claimed),
@@ -296,8 +296,8 @@ fn line(claimed: &Claimed, row: &Row, slope: Option<Slope>) -> Line {
 /// The step of an indication whose readings are all equal.
 fn silent_step(row: &Row) -> Option<f64> {
     let is_zero = matches!(&row.stated, Stated::Deviation { s, .. } if s.value == 0.0);
-    let keys = ["step", "resolution", "分辨力", "步进", "分度值"];
-    is_zero.then(|| crate::read::figure_after(&row.words, &keys).map(|step| step.value))?
+    is_zero
+        .then(|| crate::read::figure_after(&row.words, crate::read::STEP).map(|step| step.value))?
 }
 
 /// From the unit of a derivative times u, which is that of the model, to that of the contributions.

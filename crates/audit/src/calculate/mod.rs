@@ -5,6 +5,7 @@
 //! | `calculation` | a calculation, right or with slips in it |
 //! | `known` | standard uncertainties from what is known |
 //! | `model` | value and derivatives of the model |
+//! | `way` | rows from which nothing leads to the result |
 //! | `correlations` | whether correlations may hold together |
 //! | `case` | the right calculation of a claim |
 
@@ -17,7 +18,6 @@ mod way;
 
 pub use calculation::{
     Calculation, Combined, Factor, Figures, Freedom, Line, Printout, Report, Ties, dominates, t,
-    welch,
 };
 pub use case::{Case, factors};
 pub use correlations::are_possible;

@@ -252,9 +252,10 @@ fn circles_are_refused() {
     assert!(why.to_string().contains("in a circle"), "{why}");
 }
 
-/// Whatever is cut off or out: an answer or an error.
+/// Whatever is cut off or out: an answer or an error. What either says, other tests hold; both come about, and nothing else does.
 #[test]
-fn no_cut_file_is_a_panic() {
+fn smoke_of_cut_files() {
+    let (mut answered, mut refused) = (0, 0);
     for (name, text) in FILES {
         for at in (0..text.len()).step_by(3) {
             let cut = text.get(..at).unwrap_or_default();
@@ -266,12 +267,19 @@ fn no_cut_file_is_a_panic() {
                     &Mapping::default(),
                     Language::English,
                 );
-                for claimed in
-                    claims(name, text.as_bytes(), &Mapping::default()).unwrap_or_default()
-                {
+                let Ok(claims) = claims(name, text.as_bytes(), &Mapping::default()) else {
+                    refused += 1;
+                    continue;
+                };
+                answered += 1;
+                for claimed in claims {
                     let _ = crate::calculate::Case::of(&claimed);
                 }
             }
         }
     }
+    assert!(
+        answered > 100 && refused > 100,
+        "{answered} answers, {refused} refusals"
+    );
 }

@@ -1,33 +1,24 @@
 //! Units as these files write them: in symbols, or in English words.
 
+use gumption_core::quantity::symbol_of_name;
+
 use crate::units;
 
-/// Words for units, with their symbols.
-#[rustfmt::skip]
-const WORDS: [(&str, &str); 50] = [
-    ("meter", "m"), ("metre", "m"), ("gram", "g"), ("second", "s"), ("ampere", "A"), ("kelvin", "K"), ("mole", "mol"),
-    ("candela", "cd"), ("volt", "V"), ("ohm", "ohm"), ("watt", "W"), ("newton", "N"), ("pascal", "Pa"), ("hertz", "Hz"),
-    ("joule", "J"), ("farad", "F"), ("henry", "H"), ("coulomb", "C"), ("tesla", "T"), ("siemens", "S"), ("weber", "Wb"),
-    ("lumen", "lm"), ("lux", "lx"), ("degree", "°"), ("radian", "rad"), ("inch", "in"), ("foot", "ft"), ("pound", "lb"),
-    ("minute", "min"), ("hour", "h"), ("day", "d"), ("liter", "L"), ("litre", "L"), ("bar", "bar"), ("percent", "%"),
-    ("degree_Celsius", "°C"), ("celsius", "°C"), ("degC", "°C"), ("delta_degree_Celsius", "K"), ("delta_degC", "K"),
-    ("Δ°C", "K"), ("degree_Fahrenheit", "°F"), ("degF", "°F"), ("deg", "°"), ("ppm", "ppm"), ("mil", "mil"),
-    ("pound_force_per_square_inch", "psi"), ("decibel", "dB"), ("electron_volt", "eV"), ("becquerel", "Bq"),
-];
-
-const PREFIXES: [(&str, &str); 12] = [
-    ("tera", "T"),
-    ("giga", "G"),
-    ("mega", "M"),
-    ("kilo", "k"),
-    ("hecto", "h"),
-    ("deci", "d"),
-    ("centi", "c"),
-    ("milli", "m"),
-    ("micro", "µ"),
-    ("nano", "n"),
-    ("pico", "p"),
-    ("femto", "f"),
+/// Words of these programs that are no names of units, with their symbols.
+const WORDS: [(&str, &str); 13] = [
+    ("degree", "°"),
+    ("deg", "°"),
+    ("celsius", "°C"),
+    ("degC", "°C"),
+    ("degF", "°F"),
+    ("delta_degree_Celsius", "K"),
+    ("delta_degC", "K"),
+    ("Δ°C", "K"),
+    ("percent", "%"),
+    ("pound", "lb"),
+    ("pound_force_per_square_inch", "psi"),
+    ("electron_volt", "eV"),
+    ("mil", "mil"),
 ];
 
 /// The unit in the program's own writing, empty for one; `None` for what is no unit that is known.
@@ -62,19 +53,12 @@ pub(super) fn unit(text: &str) -> Option<String> {
 }
 
 fn symbol(word: &str) -> Option<String> {
-    let plain = |word: &str| {
-        let mut all = WORDS.iter();
-        all.find(|(name, _)| *name == word)
-            .map(|(_, symbol)| *symbol)
-    };
-    let one = |word: &str| plain(word).or_else(|| plain(word.strip_suffix('s')?));
-    if let Some(symbol) = one(word) {
-        return Some(symbol.to_string());
-    }
-    PREFIXES.iter().find_map(|(name, prefix)| {
-        let symbol = one(word.strip_prefix(name)?)?;
-        Some(format!("{prefix}{symbol}"))
-    })
+    let singular = word.strip_suffix('s').unwrap_or(word);
+    let own = WORDS
+        .iter()
+        .find(|(name, _)| [word, singular].contains(name));
+    let own = own.map(|(_, symbol)| (*symbol).to_string());
+    own.or_else(|| symbol_of_name(&word.replace('_', " ")))
 }
 
 #[cfg(test)]
@@ -92,6 +76,46 @@ mod tests {
             let read = unit(text);
             let same = |read: &String| read == ours || units::factor(read, ours) == Some(1.0);
             assert!(read.as_ref().is_some_and(same), "{text}: {read:?}");
+        }
+        for (word, symbol) in [
+            ("meter", "m"),
+            ("metres", "m"),
+            ("gram", "g"),
+            ("second", "s"),
+            ("amperes", "A"),
+            ("kelvin", "K"),
+            ("mole", "mol"),
+            ("candela", "cd"),
+            ("ohm", "Ω"),
+            ("pascals", "Pa"),
+            ("hertz", "Hz"),
+            ("henry", "H"),
+            ("siemens", "S"),
+            ("weber", "Wb"),
+            ("lux", "lx"),
+            ("radian", "rad"),
+            ("inch", "in"),
+            ("foot", "ft"),
+            ("pounds", "lb"),
+            ("minute", "min"),
+            ("hours", "h"),
+            ("day", "d"),
+            ("liter", "L"),
+            ("bar", "bar"),
+            ("degree_Celsius", "°C"),
+            ("degree_Fahrenheit", "°F"),
+            ("decibel", "dB"),
+            ("electron_volt", "eV"),
+            ("becquerel", "Bq"),
+            ("kilopascals", "kPa"),
+            ("exahertz", "EHz"),
+            ("decavolt", "daV"),
+            ("picoampere", "pA"),
+            ("kilo_electron_volt", "keV"),
+        ] {
+            let read = unit(word);
+            let same = |read: &String| read == symbol || units::factor(read, symbol) == Some(1.0);
+            assert!(read.as_ref().is_some_and(same), "{word}: {read:?}");
         }
         assert_eq!(unit("delta_degree_Celsius").as_deref(), Some("K"));
         assert_eq!(unit("furlongs of joy"), None);

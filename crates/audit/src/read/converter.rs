@@ -2,6 +2,7 @@
 
 use crate::printed::{Printed, leading};
 
+use super::family::FULL_SCALE;
 use super::words::{figure_after, find, has, lowered, signed_pair};
 
 /// `16-bit converter, range ±10 V`: the span divided by 2^N. A unipolar converter spans 0 … FS, a bipolar one twice FS.
@@ -87,19 +88,7 @@ fn span(words: &str, lower: &str) -> Option<Printed> {
     if upper.is_some() {
         return upper;
     }
-    let keys = [
-        "full scale",
-        "full-scale",
-        "range of",
-        "range",
-        "fs =",
-        "fs",
-        "满量程",
-        "满度",
-        "量程",
-        "输入范围",
-    ];
-    let figure = figure_after(words, &keys)?;
+    let figure = figure_after(words, &[FULL_SCALE, &["range", "输入范围"]].concat())?;
     let bipolar = has(lower, &["bipolar", "双极"]);
     Some(if bipolar { doubled(figure) } else { figure })
 }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::claim::{Claimed, Coverage};
+use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE};
 use crate::printed::{Printed, leading};
 
 use super::factor::is_factor;
@@ -125,7 +125,7 @@ pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
     let k = figure_after(&lower, &["k"]).filter(|k| is_reason && is_factor(k.value));
     if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {
         claimed.coverage = match k.value {
-            1.65 => Coverage::OfRectangle,
+            K_OF_RECTANGLE => Coverage::OfRectangle,
             k => Coverage::Fixed(k),
         };
     }

@@ -7,6 +7,9 @@ use super::factor::{is_factor, is_fixed};
 use super::statement;
 use super::words::{compact, find, has};
 
+/// How far below u_c U may stand: between them ν_eff, k and the probability.
+pub(super) const ROWS_TO_EXPANDED: usize = 4;
+
 /// A figure of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whole {

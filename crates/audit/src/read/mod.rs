@@ -13,6 +13,7 @@
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
 //! | `converter` | the step of a converter, from its bits and range |
+//! | `family` | families of words that say what is known |
 //! | `factor` | numbers that may be coverage factors |
 //! | `footer` | claimed figures of the whole |
 //! | `formulas` | what the formulas of a workbook give away |
@@ -41,6 +42,7 @@ mod converter;
 mod counts;
 mod coverage;
 mod factor;
+mod family;
 mod footer;
 mod formulas;
 mod kind;
@@ -66,8 +68,9 @@ pub use columns::Role;
 pub(crate) use counts::count_before;
 pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use factor::FIXED;
+pub(crate) use family::{RESOLUTION, STEP};
 pub(crate) use footer::Whole;
-pub(crate) use kind::is_of_type;
+pub(crate) use kind::{is_of_type, shape};
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};

@@ -7,15 +7,13 @@ use super::{footer, prose};
 /// The first line that was not used and may state U, where no U is understood: it calls an uncertainty, or stands right below
 /// u_c.
 pub fn expanded(claimed: &Claimed) -> Option<&Unplaced> {
-    /// Between them may stand ν_eff, k and the probability.
-    const NEAR: usize = 4;
     if claimed.footer.expanded.is_some() {
         return None;
     }
     let u_c = claimed.footer.u_c.as_ref().map(|u_c| u_c.at);
     let is_below = |line: &Unplaced| {
         u_c.is_some_and(|u_c| {
-            let rows = u_c.row + 1..=u_c.row + NEAR;
+            let rows = u_c.row + 1..=u_c.row + footer::ROWS_TO_EXPANDED;
             line.at.sheet == u_c.sheet && rows.contains(&line.at.row)
         })
     };

@@ -1,5 +1,6 @@
 //! What records that stand on a sheet show: readings, series, dates, ranges, fits, and checks of other kinds.
 
+use gumption_core::calendar::Day;
 use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
 
 use crate::claim::Stated;
@@ -259,7 +260,7 @@ pub(super) fn old_budget(seen: &Seen<'_>) -> Vec<Hit> {
         "证书日期",
     ];
     // `prepared by ; J. Li ; 2026-03-14`: a date belongs to the last that its line has named.
-    let dated_in = |text: &str, keys: &[&str]| -> Vec<String> {
+    let dated_in = |text: &str, keys: &[&str]| -> Vec<Day> {
         let mut about = false;
         let mut found = Vec::new();
         for part in text.split([';', ',', '。', '、']) {
@@ -269,7 +270,7 @@ pub(super) fn old_budget(seen: &Seen<'_>) -> Vec<Hit> {
         }
         found
     };
-    let dated = |keys: &[&str]| -> Vec<String> {
+    let dated = |keys: &[&str]| -> Vec<Day> {
         let all = texts(seen).flat_map(|(_, text)| dated_in(text, keys));
         all.collect()
     };
@@ -281,8 +282,8 @@ pub(super) fn old_budget(seen: &Seen<'_>) -> Vec<Hit> {
     hit.into_iter().collect()
 }
 
-/// Dates of a text as `2026-01-31`, also where it writes `2026/1/31` or `2026年1月31日`.
-pub(super) fn dates(text: &str) -> Vec<String> {
+/// Days of the calendar in a text, written as `2026-01-31`, `2026/1/31` or `2026年1月31日`.
+pub(super) fn dates(text: &str) -> Vec<Day> {
     let plain = text.replace(['年', '月', '/', '.'], "-").replace('日', " ");
     let words = plain.split(|c: char| !(c.is_ascii_digit() || c == '-'));
     let date = |word: &str| {
@@ -290,9 +291,8 @@ pub(super) fn dates(text: &str) -> Vec<String> {
         let [year, month, day] = figures.as_slice() else {
             return None;
         };
-        let (month, day): (u32, u32) = (month.parse().ok()?, day.parse().ok()?);
-        let is_date = year.len() == 4 && (1..=12).contains(&month) && (1..=31).contains(&day);
-        is_date.then(|| format!("{year}-{month:02}-{day:02}"))
+        let year = Some(year).filter(|year| year.len() == 4)?;
+        Day::of(year.parse().ok()?, month.parse().ok()?, day.parse().ok()?)
     };
     words.filter_map(date).collect()
 }
@@ -343,9 +343,12 @@ mod tests {
         assert_eq!(ends("[99.98 ; 100.02] g").map(|(a, ..)| a), Some(99.98));
         assert_eq!(ends("200 g to 5 kg"), Some((0.2, 5.0, "kg".into())));
         assert_eq!(ends("M-12"), None);
+        let days = dates(
+            "2026-01-31, 2026/2/3 and 2026年3月14日; 17.4.5; 2026-02-31, 2026-13-01, 2024-02-29",
+        );
         assert_eq!(
-            dates("2026-01-31, 2026/2/3 and 2026年3月14日; 17.4.5"),
-            ["2026-01-31", "2026-02-03", "2026-03-14"]
+            days.iter().map(Day::to_string).collect::<Vec<_>>(),
+            ["2026-01-31", "2026-02-03", "2026-03-14", "2024-02-29"]
         );
     }
 }

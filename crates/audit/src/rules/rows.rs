@@ -2,7 +2,7 @@
 
 use crate::claim::{Row, Shape, Stated};
 use crate::printed::Printed;
-use crate::read::has;
+use crate::read::{has, shape};
 use crate::units;
 
 use super::{Hit, Seen};
@@ -176,19 +176,11 @@ fn printed_as_it_stands(seen: &Seen<'_>) -> Vec<Hit> {
     })
 }
 
-/// The divisor that belongs to the distribution which the laboratory itself names.
+/// The divisor that belongs to the distribution which the laboratory itself names; how wide the top of a trapezoid is, its name does
+/// not say.
 fn named_divisor(distribution: &str) -> Option<f64> {
-    let text = distribution.to_lowercase();
-    let has = |keys: &[&str]| keys.iter().any(|key| text.contains(key));
-    if has(&["triang", "三角"]) {
-        Some(Shape::Triangular.divisor())
-    } else if has(&["arcsin", "u-shape", "u shape", "反正弦", "u形"]) {
-        Some(Shape::Arcsine.divisor())
-    } else if has(&["rect", "rechteck", "uniform", "均匀", "矩形"]) {
-        Some(Shape::Rectangular.divisor())
-    } else {
-        None
-    }
+    let named = shape(&distribution.to_lowercase())?;
+    (!matches!(named, Shape::Trapezoidal(_))).then(|| named.divisor())
 }
 
 pub(super) fn distribution(seen: &Seen<'_>) -> Vec<Hit> {
@@ -288,7 +280,8 @@ pub(super) fn negligible(seen: &Seen<'_>) -> Vec<Hit> {
         })
         .map(|(_, row, _)| row.label())
         .collect();
-    if small.len() < 2 || !seen.claimed.correlations.is_empty() {
+    // Beside an infinite u_c everything is small.
+    if small.len() < 2 || !u_c.is_finite() || !seen.claimed.correlations.is_empty() {
         return Vec::new();
     }
     vec![Hit::of(None, small.join(", "))]

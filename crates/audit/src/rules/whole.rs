@@ -160,7 +160,7 @@ pub(super) fn rectangle(seen: &Seen<'_>) -> Vec<Hit> {
         Hit {
             row: Some(i),
             numbers: format!("{:.0} % u_c²", 100.0 * part * part),
-            corrected: Some(1.65 * u_c),
+            corrected: Some(crate::claim::K_OF_RECTANGLE * u_c),
         }
     });
     hits.filter(|_| two && u_c > 0.0).collect()

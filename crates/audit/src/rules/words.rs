@@ -1,5 +1,7 @@
 //! What the words of a sheet show.
 
+use gumption_core::calendar::Day;
+
 use super::{Hit, Seen};
 
 /// Whether the sheet speaks of something, in its rows or beside its tables.
@@ -282,7 +284,7 @@ pub(super) fn expired(seen: &Seen<'_>) -> Vec<Hit> {
 }
 
 /// Dates on lines that hold one of the words.
-fn dates(text: &str, words: &[&str]) -> Vec<String> {
+fn dates(text: &str, words: &[&str]) -> Vec<Day> {
     let is_about = |line: &&str| {
         let lower = line.to_lowercase();
         words.iter().any(|word| lower.contains(word))

@@ -1,6 +1,7 @@
 //! The functions of spreadsheets that budgets are computed with.
 
 use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
+use gumption_core::statistics::median;
 
 /// The value of a function; nothing for one that is not known, or of other arguments than it takes.
 pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
@@ -49,7 +50,7 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
         ("VAR" | "VAR.S", [_, _, ..]) => Some(squares(x) / (count - 1.0)),
         ("VARP" | "VAR.P", [_, ..]) => Some(squares(x) / count),
         ("DEVSQ", [_, ..]) => Some(squares(x)),
-        ("MEDIAN", [_, ..]) => Some(median(x)),
+        ("MEDIAN", [_, ..]) => Some(median(x.to_vec())),
         _ => None,
     }
 }
@@ -58,13 +59,6 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
 fn squares(x: &[f64]) -> f64 {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     x.iter().map(|x| (x - mean) * (x - mean)).sum()
-}
-
-fn median(x: &[f64]) -> f64 {
-    let mut sorted = x.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let (low, high) = ((sorted.len() - 1) / 2, sorted.len() / 2);
-    (sorted[low] + sorted[high]) / 2.0
 }
 
 fn normal_quantile(below: f64) -> Option<f64> {

@@ -3,6 +3,7 @@
 use crate::calculate::{Case, Combined};
 use crate::claim::{Figure, RANGE, Relative, Row, Shape, Stated, range_factor};
 use crate::printed::{Printed, leading};
+use crate::read::{RESOLUTION, has};
 use crate::units;
 
 use super::slip::{Act, Change, Reporting, Slip, Weight::*};
@@ -320,15 +321,13 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "the resolution was counted beside a repeatability that already contains it",
         zh: "重复性已包含分辨力，又重复计入分辨力",
         acts: |case| each(case, |i, row| {
-            let resolution = matches!(row.stated, Stated::Step { .. }) || is_resolution(row);
-            if !case.right.lines[i].counted && resolution { vec![Change::Counted(true)] } else { Vec::new() }
+            if !case.right.lines[i].counted && is_resolution(row) { vec![Change::Counted(true)] } else { Vec::new() }
         }) },
     Slip { id: "counted-twice", rule: "32/33", weight: Error,
         en: "the row is contained in another one and was counted again",
         zh: "该项已包含在另一项中，被重复计入",
         acts: |case| each(case, |i, row| {
-            let resolution = matches!(row.stated, Stated::Step { .. }) || is_resolution(row);
-            if !case.right.lines[i].counted && !resolution { vec![Change::Counted(true)] } else { Vec::new() }
+            if !case.right.lines[i].counted && !is_resolution(row) { vec![Change::Counted(true)] } else { Vec::new() }
         }) },
 ];
 
@@ -393,10 +392,8 @@ fn typed(case: &Case<'_>, i: usize) -> Vec<Change> {
 }
 
 fn is_resolution(row: &Row) -> bool {
-    let words = row.words.to_lowercase();
-    ["resolution", "digital step", "分辨力", "步进", "分辨率"]
-        .iter()
-        .any(|word| words.contains(word))
+    let is_step = matches!(row.stated, Stated::Step { .. });
+    is_step || has(&row.words.to_lowercase(), RESOLUTION)
 }
 
 /// The number that the text of a figure shows, in the unit in which it is written.

@@ -407,3 +407,48 @@ fn a_divisor_that_is_the_number_of_readings_means_their_mean() {
     let u_c = audit(&claims[0]).found.right.u_c;
     assert!((u_c - 0.018_930).abs() < 1e-5, "{u_c}");
 }
+
+/// Findings of a text, by their rules, with their numbers.
+fn numbers(text: &str) -> Vec<(u8, String)> {
+    let grids = sheet::grids("sheet.md", text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let findings = rules::findings(&audit(&claims[0]).found);
+    let one = |finding: rules::Finding| (finding.rule, finding.numbers);
+    findings.into_iter().map(one).collect()
+}
+
+/// A distribution has its divisor, in whichever language it is named.
+#[test]
+fn a_divisor_is_that_of_the_distribution_in_every_language() {
+    let wrong = |distribution: &str, divisor: &str| {
+        let sheet = format!(
+            "| Quantity | Distribution | ± | Divisor | u / mV |\n|---|---|---|---|---|\n\
+             | V | {distribution} | 0.30 | {divisor} | 0.1732 |\n| R | normal | 0.40 | 2 | 0.20 |\n\nu_c = 0.26 mV\n"
+        );
+        numbers(&sheet).iter().any(|(rule, _)| *rule == 13)
+    };
+    for (triangle, rectangle) in [
+        ("triangular", "rectangular"),
+        ("Dreieck", "Rechteck"),
+        ("dreieckverteilt", "gleichverteilt"),
+        ("三角", "均匀"),
+    ] {
+        assert!(wrong(triangle, "1.732"), "{triangle}");
+        assert!(!wrong(rectangle, "1.732"), "{rectangle}");
+        assert!(!wrong(triangle, "2.449"), "{triangle}");
+    }
+    // How wide the top of a trapezoid is, its name does not say.
+    assert!(!wrong("trapezoidal", "1.732"));
+}
+
+/// A model without a value has no u_c of which a row were a part.
+#[test]
+fn nothing_is_a_part_of_an_infinite_u_c() {
+    let text = include_str!("../../../../docs/examples/four-point-tumble.md");
+    let without_end = text.replace("(2 * R * a)", "(0.0 * R * a)");
+    assert_ne!(text, without_end);
+    for (rule, numbers) in numbers(&without_end) {
+        assert!(!numbers.contains("NaN"), "{rule}: {numbers}");
+        assert!(![75, 76].contains(&rule), "{rule}: {numbers}");
+    }
+}

@@ -6,6 +6,7 @@ use super::record::{Outcome, Record};
 use super::trial::Ablation;
 use crate::grade::Finding;
 use crate::scenario::{Class, NoiseKnowledge};
+use gumption_core::statistics::median;
 
 /// What a share has to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -303,11 +304,6 @@ pub fn measures(records: &[Record]) -> Vec<Measure> {
 
 /// Median of the seconds that a diagnosis took.
 pub(super) fn median_seconds(records: &[Record]) -> f64 {
-    let mut seconds: Vec<f64> = records
-        .iter()
-        .map(|r| r.seconds)
-        .filter(|s| s.is_finite())
-        .collect();
-    seconds.sort_by(f64::total_cmp);
-    seconds.get(seconds.len() / 2).copied().unwrap_or(f64::NAN)
+    let seconds = records.iter().map(|r| r.seconds);
+    median(seconds.filter(|s| s.is_finite()).collect())
 }

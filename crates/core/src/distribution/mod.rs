@@ -12,6 +12,7 @@
 //! | `symmetric`, `finite` | what the bounded symmetric kinds and those of finitely many values share |
 //! | `score` | quantiles as tabulated functions of the normal score |
 //! | `copula` | the latent correlation that gives two margins a stated correlation |
+//! | `extended` | numbers that may be infinite, in JSON |
 //! | the others | one distribution each; `poisson` and `binomial` are counts, which say a gamma or a beta distribution |
 //!
 //! ```

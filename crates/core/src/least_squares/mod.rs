@@ -11,6 +11,7 @@
 //! | `gradient` | the response that is a function with its slopes |
 //! | `factor` | pivoted Householder QR and Cholesky, in either precision |
 //! | `decomposition` | singular values and axes of a matrix |
+//! | `directions` | what columns span, and what is left of others beside them |
 //! | `whiten` | errors of y to unit variance |
 //! | `linear` | responses affine in their parameters, exact predictors |
 //! | `nonlinear` | Levenberg–Marquardt, finished by Gauss–Newton steps |

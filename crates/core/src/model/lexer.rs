@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::faults;
 use super::syntax::Span;
+use crate::letters::{is_wide, lowered, narrow};
 use gumption_fault::{Fault, say};
 
 /// A token of a text and where it stands.
@@ -81,8 +82,6 @@ const SIGNS: [(&str, &str); 42] = [
     ("–", "-"),
 ];
 
-const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-
 /// Splits a text; what is no token is reported and left out.
 pub fn tokens<'t>(text: &'t str, faults: &mut Vec<Fault>) -> Vec<Token<'t>> {
     let mut lexer = Lexer {
@@ -137,7 +136,7 @@ impl<'a> Lexer<'a, '_> {
             self.number();
         } else if next == '\'' {
             self.quoted();
-        } else if SUPERSCRIPTS.contains(&next) || next == '⁻' {
+        } else if lowered(next).is_some() {
             self.superscript();
         } else if next.is_alphabetic() || next == '_' {
             self.name();
@@ -271,16 +270,10 @@ impl<'a> Lexer<'a, '_> {
     /// `x²` is `x ^ 2`.
     fn superscript(&mut self) {
         let rest = self.rest();
-        let is_part = |c: char| SUPERSCRIPTS.contains(&c) || c == '⁻';
-        let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+        let end = rest.find(|c| lowered(c).is_none());
+        let end = end.unwrap_or(rest.len());
         let span = self.at..self.at + end;
-        let plain: String = rest[..end]
-            .chars()
-            .map(|c| match SUPERSCRIPTS.iter().position(|s| *s == c) {
-                Some(digit) => char::from(b'0' + digit as u8),
-                None => '-',
-            })
-            .collect();
+        let plain: String = rest[..end].chars().filter_map(lowered).collect();
         match plain.parse::<f64>() {
             Ok(value) => {
                 self.push(Kind::Sign("^"), span.clone());
@@ -375,8 +368,8 @@ impl<'a> Lexer<'a, '_> {
             '&' | '!' => say!("write `and`, `or`, `not`"),
             '.' => say!("write the decimal point between digits, as in `0.5`"),
             '\\' => say!("formulas are written as `a / b`, `sqrt(x)` and `x^2`, not in LaTeX"),
-            '\u{ff01}'..='\u{ff5e}' => {
-                let symbol = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
+            _ if is_wide(c) => {
+                let symbol = narrow(c);
                 say!("write `{symbol}`")
             }
             _ => say!("write what it means with `+ - * / ^`, brackets and functions"),
@@ -395,7 +388,7 @@ impl<'a> Lexer<'a, '_> {
 }
 
 fn is_name_part(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_' || c.is_alphanumeric() && !SUPERSCRIPTS.contains(&c)
+    c.is_ascii_alphanumeric() || c == '_' || c.is_alphanumeric() && lowered(c).is_none()
 }
 
 #[cfg(test)]

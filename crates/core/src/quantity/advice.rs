@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::builtin::{PREFIXES, Prefixes, UNITS};
+use super::builtin::{PREFIXES, Prefixes, UNITS, prefix_names};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
 use super::syntax::NamedTerm;
@@ -54,9 +54,8 @@ pub(super) fn for_unknown<'a>(
             "what is counted, or defined by its procedure, is of dimension one: declare it in the [unit] table, `{name} = \"1\"`"
         );
     }
-    if let Some(symbol) = by_english_name(name)
-        .map(str::to_owned)
-        .or_else(|| by_prefixed_name(name))
+    if let Some(symbol) = symbol_of_name(name)
+        .or_else(|| behind_a_symbol(name))
         .or_else(|| by_chinese_name(name))
     {
         return say!("write `{symbol}`");
@@ -212,33 +211,27 @@ fn by_english_name(name: &str) -> Option<&'static str> {
     wanted.find_map(|name| ENGLISH.get(name).copied())
 }
 
-/// The symbol of a unit that was written out behind a prefix: `mAmp`, `kilovolts`.
-fn by_prefixed_name(name: &str) -> Option<String> {
-    let lower = name.to_lowercase();
-    let words = PREFIX_NAMES
-        .iter()
-        .find_map(|(word, prefix)| Some((*prefix, by_english_name(lower.strip_prefix(word)?)?)));
-    let symbols = || {
-        PREFIXES
-            .iter()
-            .find_map(|(prefix, _)| Some((*prefix, by_english_name(name.strip_prefix(prefix)?)?)))
-    };
-    words
-        .or_else(symbols)
-        .map(|(prefix, symbol)| format!("{prefix}{symbol}"))
+/// The symbol of a unit that was written out behind the symbol of a prefix: `mAmp`.
+fn behind_a_symbol(name: &str) -> Option<String> {
+    PREFIXES.iter().find_map(|(prefix, _)| {
+        let symbol = by_english_name(name.strip_prefix(prefix)?)?;
+        Some(format!("{prefix}{symbol}"))
+    })
 }
 
-/// The usual prefixes written out.
-const PREFIX_NAMES: [(&str, &str); 8] = [
-    ("nano", "n"),
-    ("micro", "µ"),
-    ("milli", "m"),
-    ("centi", "c"),
-    ("hecto", "h"),
-    ("kilo", "k"),
-    ("mega", "M"),
-    ("giga", "G"),
-];
+/// The symbol of a unit by its English name, in the singular or plural, behind the name of any prefix: `millivolts`, `picoampere`,
+/// `degree Celsius`.
+pub fn symbol_of_name(name: &str) -> Option<String> {
+    let lower = name.to_lowercase();
+    let prefixed = || {
+        prefix_names().find_map(|(word, prefix)| {
+            let symbol = by_english_name(lower.strip_prefix(word)?)?;
+            Some(format!("{prefix}{symbol}"))
+        })
+    };
+    let plain = by_english_name(name).map(str::to_owned);
+    plain.or_else(prefixed)
+}
 
 /// Ends of names that say which kind of value is meant, which is not the unit's office.
 const QUALIFIERS: &[&str] = &[

@@ -200,6 +200,42 @@ pub(super) const PREFIXES: &[(&str, i32)] = &[
     ("Q", 30),
 ];
 
+/// Names of the prefixes, by their power of ten.
+pub(super) const PREFIX_NAMES: &[(i32, &str)] = &[
+    (30, "quetta"),
+    (27, "ronna"),
+    (24, "yotta"),
+    (21, "zetta"),
+    (18, "exa"),
+    (15, "peta"),
+    (12, "tera"),
+    (9, "giga"),
+    (6, "mega"),
+    (3, "kilo"),
+    (2, "hecto"),
+    (1, "deca"),
+    (-1, "deci"),
+    (-2, "centi"),
+    (-3, "milli"),
+    (-6, "micro"),
+    (-9, "nano"),
+    (-12, "pico"),
+    (-15, "femto"),
+    (-18, "atto"),
+    (-21, "zepto"),
+    (-24, "yocto"),
+    (-27, "ronto"),
+    (-30, "quecto"),
+];
+
+/// Names of the prefixes, with their symbols.
+pub(super) fn prefix_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    PREFIX_NAMES.iter().filter_map(|(power, name)| {
+        let mut symbols = PREFIXES.iter().filter(|(_, known)| known == power);
+        Some((*name, symbols.next()?.0))
+    })
+}
+
 /// The table.
 #[rustfmt::skip]
 pub(super) const UNITS: &[BuiltinUnit] = &[

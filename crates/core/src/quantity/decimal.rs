@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::superscript::lowered;
+use crate::letters::lowered;
 
 /// Exponents of texts beyond this are refused, and places of rounding kept within, so that no number
 /// fills the memory with zeros. Doubles reach ±324.

@@ -1,37 +1,9 @@
 //! Units as the D-SI writes them (`\milli\volt\second\tothe{-1}`; Digital System of Units, 2.2), there and back.
 
-use super::builtin::{Definition, PREFIXES, UNITS};
+use super::builtin::{Definition, PREFIX_NAMES, PREFIXES, UNITS};
 use super::dimension::{STEPS, exponent_text};
 use super::symbol;
 use super::{Unit, UnitKind, UnitTable};
-
-/// Names of the prefixes, by their power of ten.
-const NAMES: &[(i32, &str)] = &[
-    (30, "quetta"),
-    (27, "ronna"),
-    (24, "yotta"),
-    (21, "zetta"),
-    (18, "exa"),
-    (15, "peta"),
-    (12, "tera"),
-    (9, "giga"),
-    (6, "mega"),
-    (3, "kilo"),
-    (2, "hecto"),
-    (1, "deca"),
-    (-1, "deci"),
-    (-2, "centi"),
-    (-3, "milli"),
-    (-6, "micro"),
-    (-9, "nano"),
-    (-12, "pico"),
-    (-15, "femto"),
-    (-18, "atto"),
-    (-21, "zepto"),
-    (-24, "yocto"),
-    (-27, "ronto"),
-    (-30, "quecto"),
-];
 
 impl Unit {
     /// The unit in the notation of the D-SI; `None` where the D-SI has no name for a part of it (inch, standard gravity),
@@ -147,7 +119,7 @@ fn named(symbol: &str) -> Option<String> {
     }
     PREFIXES.iter().find_map(|(prefix, ten)| {
         let unit = known(symbol.strip_prefix(prefix)?)?.dsi()?;
-        let (_, prefix) = NAMES.iter().find(|(power, _)| power == ten)?;
+        let (_, prefix) = PREFIX_NAMES.iter().find(|(power, _)| power == ten)?;
         Some(format!("\\{prefix}\\{unit}"))
     })
 }
@@ -178,7 +150,7 @@ impl UnitTable {
                 below = true;
                 continue;
             }
-            if let Some((ten, _)) = NAMES.iter().find(|(_, name)| *name == word) {
+            if let Some((ten, _)) = PREFIX_NAMES.iter().find(|(_, name)| *name == word) {
                 prefix = PREFIXES.iter().find(|(_, power)| power == ten);
                 continue;
             }

@@ -16,13 +16,13 @@ mod revolutions;
 mod rounded;
 mod show;
 mod square;
-mod superscript;
 mod symbol;
 mod syntax;
 mod table;
 mod token;
 mod unit;
 
+pub use advice::symbol_of_name;
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
 pub use clash::{hint_for_clash, per_coulomb};
 pub use decimal::{Decimal, Rounding};

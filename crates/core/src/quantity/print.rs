@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::decimal::Decimal;
-use super::superscript::raised;
+use crate::letters::raised;
 
 /// The power of ten that a number should be printed with, given the places of its first and last
 /// digit: below 0.0001, and from 10^7 on where zeros would have to be added that mean nothing.

@@ -4,6 +4,7 @@ use super::builtin;
 use super::dimension::{STEPS, exponent_text, scaled};
 use super::syntax::{Numbers, parse};
 use super::token::unified;
+use crate::letters;
 
 /// Composes the symbol of a product of units.
 ///
@@ -98,8 +99,7 @@ impl Composer {
         self.style.negative_exponents |= ["^-", "^(-", "**-", "^−", "⁻"]
             .iter()
             .any(|sign| symbol.contains(sign));
-        self.style.superscripts |=
-            symbol.contains(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹', '⁻']);
+        self.style.superscripts |= symbol.contains(|c| letters::lowered(c).is_some());
     }
 
     fn merge(&mut self, name: String, exponent: i32) {
@@ -121,7 +121,10 @@ impl Style {
         }
         let exponent = exponent_text(exponent);
         if self.superscripts && !exponent.contains('(') {
-            let raised = exponent.trim_start_matches('^').chars().map(superscript);
+            let raised = exponent
+                .trim_start_matches('^')
+                .chars()
+                .map(letters::raised);
             return name.chars().chain(raised).collect();
         }
         format!("{name}{exponent}")
@@ -184,16 +187,6 @@ fn same(a: &str, b: &str) -> bool {
         }
     };
     a == b || key(a) == key(b)
-}
-
-fn superscript(c: char) -> char {
-    match c {
-        '-' => '⁻',
-        _ => c
-            .to_digit(10)
-            .and_then(|digit| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize))
-            .unwrap_or(c),
-    }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use gumption_fault::say;
 
 use super::faults::{MALFORMED_UNIT, UnitError};
 use super::square;
+use crate::letters::{lowered, narrow};
 
 /// A token and its place.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,11 +52,11 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             ')' | '）' => Kind::Close,
             '-' | '−' => Kind::Minus,
             '√' => Kind::Root,
-            _ if superscript(c).is_some() => {
-                let digits = superscript(c).into_iter().chain(std::iter::from_fn(|| {
+            _ if lowered(c).is_some() => {
+                let digits = lowered(c).into_iter().chain(std::iter::from_fn(|| {
                     chars
-                        .next_if(|(_, c)| superscript(*c).is_some())
-                        .and_then(|(_, c)| superscript(c))
+                        .next_if(|(_, c)| lowered(*c).is_some())
+                        .and_then(|(_, c)| lowered(c))
                 }));
                 Kind::Superscript(digits.collect::<String>().parse().ok())
             }
@@ -96,7 +97,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
 /// A name with one spelling for the characters that look alike or were coded twice in Unicode.
 pub(super) fn unified(name: &str) -> String {
     let mut result = String::with_capacity(name.len());
-    for c in name.chars().map(half_width) {
+    for c in name.chars().map(narrow) {
         let alike = LOOK_ALIKES.iter().find(|(from, _)| from.contains(&c));
         let alike = alike.map(|(_, to)| *to);
         match alike.or_else(|| square::written_out(c)) {
@@ -105,12 +106,6 @@ pub(super) fn unified(name: &str) -> String {
         }
     }
     result
-}
-
-/// The letter or sign that a full-width one of a Chinese keyboard stands for: `Ｖ`, `％`.
-fn half_width(c: char) -> char {
-    let plain = u32::from(c).checked_sub(0xfee0).and_then(char::from_u32);
-    plain.filter(char::is_ascii_graphic).unwrap_or(c)
 }
 
 /// Characters and the spelling that stands for all of them.
@@ -134,16 +129,6 @@ fn starts_name(c: char) -> bool {
 
 fn continues_name(c: char) -> bool {
     starts_name(c) || c.is_ascii_digit()
-}
-
-/// The plain digit or sign of a superscript.
-fn superscript(c: char) -> Option<char> {
-    let position = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c);
-    match c {
-        '⁻' => Some('-'),
-        '⁺' => Some('+'),
-        _ => char::from_digit(u32::try_from(position?).ok()?, 10),
-    }
 }
 
 /// Skips the rest of `12.5e-3`; an `e` counts only before digits, so that `1eV` stays readable.

@@ -13,6 +13,7 @@
 //! | `beta` | ln B, regularised incomplete beta function and its inverse |
 //! | `student_t`, `chi_squared`, `f` | the distributions that degrees of freedom lead to |
 //! | `quadrature` | Gauss–Legendre quadrature |
+//! | [`roots`] | where a condition ceases to hold |
 //! | `log_concave` | the one algorithm behind gamma, beta and t |
 //!
 //! # Method
@@ -40,6 +41,7 @@ mod gamma;
 mod log_concave;
 mod normal;
 mod quadrature;
+pub mod roots;
 mod student_t;
 #[cfg(test)]
 mod table;

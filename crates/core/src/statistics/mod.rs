@@ -5,11 +5,13 @@
 //! |---|---|
 //! | `readings` | mean, standard deviation, autocorrelation, pooling |
 //! | `anova` | readings in groups |
+//! | `freedom` | effective degrees of freedom; lengths without overflow |
 //! | `median` | the middle of numbers |
 //! | `nested` | readings in subgroups of groups |
 //! | `outliers` | tests of the most outlying reading |
 
 mod anova;
+mod freedom;
 mod median;
 mod nested;
 mod outliers;
@@ -17,6 +19,7 @@ mod readings;
 
 pub use crate::dd::Dd;
 pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
+pub use freedom::{effective_freedom, effective_freedom_of, norm, power_of_two, root_mean_square};
 pub use median::median;
 pub use nested::{Nested, Verdicts};
 pub use outliers::{OutlierTest, Suspect};

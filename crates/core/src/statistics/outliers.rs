@@ -2,6 +2,7 @@
 //! is dropped is decided by somebody who knows what happened when it was taken.
 
 use super::{Dd, Series};
+use crate::special::roots::last;
 use crate::special::{
     gauss_legendre, ln_gamma, normal_cdf, normal_pdf, normal_sf, student_t_sf,
     student_t_upper_quantile,
@@ -238,16 +239,7 @@ fn dixon(test: Dixon, readings: &[Dd], significance: f64) -> Suspect {
 
 /// The ratio that is exceeded with a probability.
 fn critical_ratio(test: Dixon, probability: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..30 {
-        let middle = 0.5 * (low + high);
-        if test.exceeds(middle) > probability {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    last(0.0, 1.0, |ratio| test.exceeds(ratio) > probability)
 }
 
 #[cfg(test)]

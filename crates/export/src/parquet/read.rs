@@ -13,7 +13,7 @@ use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::reader::RowIter;
 use ::parquet::record::{Field, Row};
 use ::parquet::schema::types::{Type, TypePtr};
-use gumption_core::calendar::Day;
+use gumption_core::calendar::{Day, SECONDS_OF_A_DAY};
 use gumption_fault::{Fault, say};
 use gumption_format::contained::contained;
 use gumption_format::csv::faults::UNREADABLE;
@@ -268,21 +268,11 @@ fn number(x: f64) -> String {
 
 /// A day, counted from the beginning of 1970; one that no four digits of a year have is a number.
 fn date(days: i64) -> String {
-    // Periods of 400 years are alike: days before 1970 are those of later ones.
-    const PERIODS: u64 = 4;
-    const DAYS_OF_A_PERIOD: u64 = 146_097;
-    let later = days.checked_add_unsigned(PERIODS * DAYS_OF_A_PERIOD);
-    let later = later.and_then(|days| u64::try_from(days).ok());
-    let day = later.map(Day::after_1970).and_then(|day| {
-        let year = day.year.checked_sub(400 * PERIODS)?;
-        (year <= 9999).then_some(Day { year, ..day })
-    });
-    day.map_or_else(|| days.to_string(), |day| day.to_string())
+    Day::at(days).map_or_else(|| days.to_string(), |day| day.to_string())
 }
 
 /// A time in so many parts of a second since the beginning of 1970, as ISO 8601 has it; a date where it is midnight.
 fn instant(count: i64, parts: i64) -> String {
-    const SECONDS_OF_A_DAY: i64 = 86_400;
     let (seconds, rest) = (count.div_euclid(parts), count.rem_euclid(parts));
     let day = date(seconds.div_euclid(SECONDS_OF_A_DAY));
     let second = seconds.rem_euclid(SECONDS_OF_A_DAY);

@@ -19,6 +19,7 @@ use krilla::paint::{Fill, Stroke, StrokeDash};
 use krilla::surface::Surface;
 use krilla::text::{GlyphId, KrillaGlyph};
 
+use gumption_core::calendar::Day;
 use gumption_fault::language::Language;
 use gumption_fault::say;
 use gumption_format::document::{Block, Document};
@@ -121,21 +122,19 @@ fn written(document: &Document, flow: &Flow<'_>) -> Result<Vec<u8>, Failure> {
 /// The day on which a certificate is issued, else one that is always the same: no clock is read, so that the same document
 /// gives the same bytes.
 fn date(document: &Document) -> DateTime {
+    const SOME_DAY: Day = Day {
+        year: 2000,
+        month: 1,
+        day: 1,
+    };
     let certificate = document.certificate.as_ref();
     let given = certificate.and_then(|one| one.administration.as_ref());
     let issued = given.and_then(|given| given.issued.as_deref());
-    let parts: Vec<u16> = issued
-        .unwrap_or_default()
-        .split('-')
-        .filter_map(|part| part.parse().ok())
-        .collect();
-    let (year, month, day) = match parts.as_slice() {
-        [year, month, day] => (*year, *month as u8, *day as u8),
-        _ => (2000, 1, 1),
-    };
-    DateTime::new(year)
-        .month(month)
-        .day(day)
+    let day = issued.and_then(Day::read).unwrap_or(SOME_DAY);
+    // Of four and of two digits.
+    DateTime::new(day.year as u16)
+        .month(day.month as u8)
+        .day(day.day as u8)
         .hour(0)
         .minute(0)
         .second(0)

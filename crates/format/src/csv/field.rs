@@ -1,6 +1,7 @@
 //! Numbers and times in the fields of a recording.
 
-use gumption_core::calendar::Day;
+use gumption_core::calendar::{Day, SECONDS_OF_A_DAY};
+use gumption_core::letters::is_wide;
 use gumption_fault::{Said, say};
 
 use super::epoch::{Epoch, Form};
@@ -110,10 +111,9 @@ pub fn number(text: &str, sheet: &Sheet<'_>) -> Option<f64> {
 
 /// Days from the beginning of 1970 to a date of the calendar, with or without a time behind it.
 pub fn days(text: &str) -> Option<f64> {
-    const SECONDS_OF_A_DAY: f64 = 86_400.0;
     let date = text.split(['T', ' ']).next()?;
     days_of(date)?;
-    Some(time(text)? / SECONDS_OF_A_DAY)
+    Some(time(text)? / SECONDS_OF_A_DAY as f64)
 }
 
 /// Seconds of a time of the calendar, since the beginning of 1970, or of one of the day.
@@ -173,7 +173,7 @@ fn instant(text: &str) -> Option<Instant> {
     }
     let of_day = 3600 * hours + 60 * minutes + seconds;
     Some(Instant {
-        whole: 86_400 * days + of_day - offset,
+        whole: SECONDS_OF_A_DAY * days + of_day - offset,
         rest,
         ahead: offset,
         form,
@@ -250,8 +250,7 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
             false => say!("write {point}, with a decimal point"),
         });
     }
-    let of_other_keyboard = |c| ('\u{ff01}'..='\u{ff5e}').contains(&c);
-    if let Some((number, unit)) = spelled(field).filter(|_| field.contains(of_other_keyboard))
+    if let Some((number, unit)) = spelled(field).filter(|_| field.contains(is_wide))
         && unit.is_empty()
     {
         return Some(say!("write {number}", number = number));

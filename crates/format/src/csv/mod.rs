@@ -4,13 +4,16 @@
 //! |---|---|
 //! | [`faults`] | codes of what is refused |
 //! | `encoding` | bytes as text: UTF-8, UTF-16, GBK |
+//! | `source` | the file of a table, in whichever of them it was saved |
 //! | `sheet` | text as rows of fields, with their places |
 //! | `pieces` | a long file, some rows at a time |
 //! | `columns` | a table that is in memory already |
 //! | `heading` | names and units in the first line |
+//! | `preamble`, `units_line`, `summary` | what loggers write above the names and below them, and at the end |
 //! | `field` | numbers and times in the rows below |
+//! | `epoch` | from where times are counted, so that a moment is told as the file tells it |
 //! | `doubts` | what only the table as a whole makes doubtful |
-//! | `reader`, `column_unit` | the columns that somebody asks for; their units |
+//! | `request`, `reader`, `draft`, `column_unit` | the columns that somebody asks for, read field by field; their units |
 //! | `size` | what they take of the memory |
 //!
 //! What makes a table unreadable is a [`Fault`](gumption_fault::Fault) in a

@@ -8,7 +8,7 @@
 //! | `ledger` | the files that a command has read, which it does not write |
 //! | `mark` | how a file is known to be as this program wrote it |
 //! | `steps` | the operations of the file system that writing takes, each of which may fail |
-//! | [`mod@write`] | files replaced as a whole, all of them or none |
+//! | [`write`](mod@write) | files replaced as a whole, all of them or none |
 
 mod growing;
 mod identity;

@@ -22,7 +22,7 @@ pub use strings::StringMap;
 pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults};
 pub use table::{
     FromToml, Hints, Key, KeyRow, Present, Raw, Reader, Slot, Stated, Table, described, doc_text,
-    in_order, inner, read_table, table, unknown_word, words,
+    in_order, inner, read_table, schema_of, table, unknown_word, words,
 };
 pub use values::{Amount, Cell, Date, Dof, amount_parts};
 

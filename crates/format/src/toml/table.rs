@@ -188,6 +188,22 @@ pub trait FromToml: Sized {
     fn tables(_path: &str, _rows: &mut Vec<KeyRow>) {}
 }
 
+/// JSON Schema (draft-07) of a file with this title, for editors; one of its keys may be set to one of these names.
+pub fn schema_of<T: FromToml>(title: &str, (key, names): (&str, Vec<&str>)) -> Value {
+    let mut schema = T::schema();
+    if let Value::Object(entries) = &mut schema {
+        let draft = "http://json-schema.org/draft-07/schema#";
+        entries.insert("$schema".into(), draft.into());
+        entries.insert("title".into(), title.into());
+        if let Some(Value::Object(properties)) = entries.get_mut("properties")
+            && let Some(Value::Object(one)) = properties.get_mut(key)
+        {
+            one.insert("enum".into(), names.into());
+        }
+    }
+    schema
+}
+
 /// One row of the reference of keys.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyRow {

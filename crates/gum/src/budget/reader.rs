@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 use toml::de::DeTable;
 
 use super::Profile;
@@ -19,7 +19,7 @@ use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
-use gumption_format::toml::{FromToml, KeyRow, Matrices, Reader, Stated, Table, read_table};
+use gumption_format::toml::{KeyRow, Matrices, Reader, Stated, Table, read_table, schema_of};
 use gumption_format::toml::{decoded, document, elsewhere, leaves_the_rest, syntax_faults};
 
 /// Reads and checks a budget file.
@@ -268,24 +268,9 @@ pub(super) fn tables(
 
 /// JSON Schema (draft-07) of the budget file, for editors.
 pub fn schema() -> Value {
-    let mut schema = FileTable::schema();
-    if let Value::Object(entries) = &mut schema {
-        entries.insert(
-            "$schema".into(),
-            json!("http://json-schema.org/draft-07/schema#"),
-        );
-        entries.insert("title".into(), json!("gumption budget"));
-        if let Some(Value::Object(properties)) = entries.get_mut("properties")
-            && let Some(Value::Object(profile)) = properties.get_mut("profile")
-        {
-            let names: Vec<&str> = super::profile::PROFILES
-                .iter()
-                .map(|profile| profile.name)
-                .collect();
-            profile.insert("enum".into(), json!(names));
-        }
-    }
-    schema
+    let profiles = super::profile::PROFILES.iter();
+    let names = profiles.map(|profile| profile.name).collect();
+    schema_of::<FileTable>("gumption budget", ("profile", names))
 }
 
 /// The reference of keys, table by table.

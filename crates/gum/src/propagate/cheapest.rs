@@ -8,7 +8,9 @@
 use super::error::EvaluationError;
 use super::evaluate::evaluate;
 use super::options::{MonteCarloChoice, Options};
+use super::requirements::HALVINGS;
 use crate::budget::Budget;
+use gumption_core::special::roots::try_last;
 
 /// What all inputs together would have to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,9 +35,6 @@ pub struct Improvement {
     /// What that costs, in the unit of the costs.
     pub cost: f64,
 }
-
-/// Halvings: t is found to 10⁻⁹ of itself.
-const HALVINGS: usize = 30;
 
 /// The least cost at which U of a measurand is not above `wished`, with what it costs to halve the uncertainty of each input; one without a
 /// positive finite cost stays as it is. `None` if what is wished for is no positive number, or there is no such measurand.
@@ -79,14 +78,9 @@ pub fn cheapest(
     }
     // At the upper end all are as they are.
     let rates = payable.iter().map(|(.., rate)| 1.0 / rate);
-    let (mut below, mut above) = (0.0, rates.fold(0.0, f64::max));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (below + above);
-        match expanded(middle)? <= wished {
-            true => below = middle,
-            false => above = middle,
-        }
-    }
+    let above = rates.fold(0.0, f64::max);
+    let reaches = |t| expanded(t).map(|found| found <= wished);
+    let [below, _] = try_last(0.0, above, HALVINGS, reaches)?;
     let improved = payable.iter().filter(|(.., rate)| below * rate < 1.0);
     let improved = improved.map(|(input, cost, rate)| {
         let (u, times) = (gum.inputs[*input].u, below * rate);

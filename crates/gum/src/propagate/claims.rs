@@ -30,6 +30,15 @@ pub struct Comparison {
     pub decides: bool,
 }
 
+impl Comparison {
+    /// Obtained less claimed, where that is a number and not a verdict.
+    pub fn difference(&self) -> Option<f64> {
+        let is_verdict = matches!(self.claimed.what, Figure::Validated(_));
+        let obtained = self.obtained.filter(|_| !is_verdict)?;
+        Some(obtained - self.claimed.value)
+    }
+}
+
 /// Which method gave a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Method {

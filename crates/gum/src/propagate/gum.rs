@@ -8,12 +8,13 @@
 use gumption_lanes::linear::settled;
 use nalgebra::DMatrix;
 
-use super::covariance::{Covariance, Form, norm};
+use super::covariance::{Covariance, Form};
 use super::error::EvaluationError;
 use super::freedom;
 use super::result::Contribution;
 use crate::budget::{Budget, Input};
 use gumption_core::model::{Model, Resolved};
+use gumption_core::statistics::norm;
 
 /// A budget made linear at its estimates.
 #[derive(Debug, Clone)]

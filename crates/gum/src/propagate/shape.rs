@@ -5,6 +5,7 @@
 //! convolution is an integral over that distribution's quantiles.
 
 use gumption_core::distribution::Distribution;
+use gumption_core::special::roots::last;
 use gumption_core::special::{
     normal_cdf, normal_pdf, student_t_cdf, student_t_sf, student_t_two_sided,
     student_t_two_sided_quantile,
@@ -100,15 +101,10 @@ impl Shape<'_> {
             low = high;
             high *= 2.0;
         }
-        while high - low > 1e-12 * high {
-            let middle = 0.5 * (low + high);
-            if self.coverage(middle) >= p {
-                high = middle;
-            } else {
-                low = middle;
-            }
+        match high.is_finite() {
+            true => last(high, low, |half| self.coverage(half) >= p),
+            false => high,
         }
-        0.5 * (low + high)
     }
 }
 

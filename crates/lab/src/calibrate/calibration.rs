@@ -20,6 +20,7 @@ use super::trouble::Trouble;
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
+use gumption_core::statistics::effective_freedom_of;
 
 /// A calibration that was evaluated.
 #[derive(Debug, Clone)]
@@ -379,13 +380,14 @@ pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause
 
 /// Welch–Satterthwaite (GUM G.2b) over the causes that act on a coefficient.
 fn effective(causes: &[Cause], coefficient: usize, u: f64) -> f64 {
-    let sum: f64 = causes
+    let acting = causes
         .iter()
-        .filter(|cause| !cause.contributes(coefficient, u).is_nothing)
-        .map(|cause| cause.contribution(coefficient).powi(4) / cause.contribution_dof(coefficient))
-        .filter(|term| term.is_finite())
-        .sum();
-    u.powi(4) / sum
+        .map(|cause| cause.contributes(coefficient, u))
+        .filter(|contribution| !contribution.is_nothing);
+    effective_freedom_of(
+        u,
+        acting.map(|contribution| (contribution.u, contribution.dof)),
+    )
 }
 
 fn residuals(

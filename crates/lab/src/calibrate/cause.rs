@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::experiment::Scope;
 use gumption_core::distribution::Distribution;
+use gumption_core::statistics::effective_freedom;
 use gumption_gum::budget::Evaluation;
 
 /// A cause of doubt and what it does to the coefficients.
@@ -98,13 +99,8 @@ impl Cause {
         if let [dof] = self.dof.as_slice() {
             return *dof;
         }
-        let squares = self.effects.row(coefficient).map(|effect| effect * effect);
-        let welch: f64 = squares
-            .iter()
-            .zip(&self.dof)
-            .map(|(s, dof)| s * s / dof)
-            .sum();
-        squares.sum().powi(2) / welch
+        let effects = self.effects.row(coefficient);
+        effective_freedom(effects.iter().copied().zip(self.dof.iter().copied()))
     }
 }
 

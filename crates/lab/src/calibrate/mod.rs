@@ -8,10 +8,10 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `define` | from tables to a checked experiment, or all faults |
-//! | `checker`, `purpose` | what all checks share; what a file is read for |
-//! | `names`, `symbols`, `parameters`, `extras` | what names are; units; omitted effects and results |
-//! | `known`, `doubts`, `components` | inputs and readings; the errors that make them uncertain |
-//! | `data`, `label_columns`, `positions`, `schedule` | where the points come from |
+//! | `contrary` | what an experiment states in two ways, or in vain |
+//! | `extras` | omitted effects and results |
+//! | `data`, `schedule` | where the points come from |
+//! | `noise` | the noise that a file states: an error of each reading |
 //! | `points`, `dwells`, `together` | the points of an experiment: rows, or averages of dwells and of repeated positions |
 //! | `campaign` | an experiment with its points |
 //! | `recordings` | one experiment and many recordings |
@@ -19,6 +19,7 @@
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
+//! | `trouble` | why an experiment gives no coefficients |
 //! | `swaps`, `signs`, `apart`, `limits`, `pattern` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
 //! | `size` | how much memory that takes |
 //! | `coefficient`, `residual`, `calibration`, `plan` | the results, after and before measuring |
@@ -42,7 +43,6 @@ mod contrary;
 mod data;
 mod define;
 mod dwells;
-
 mod extras;
 mod gain;
 mod identify;

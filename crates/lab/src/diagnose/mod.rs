@@ -26,6 +26,8 @@
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise`, `noise_claims` | what is known about the noise of every row; what the case claims about it |
+//! | `noise_laws`, `noise_rounding`, `noise_scale` | what the course of the noise may be beside a fit; readings in coarse steps; a scale that wanders |
+//! | `resolution` | the steps of readings, as they show them themselves |
 //! | `replicates`, `noise_growth`, `noise_labels`, `noise_outputs`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, goes together in several outputs, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
@@ -36,7 +38,7 @@
 //! | `further` | whether a further effect gains more than noise alone gives it |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
-//! | `adopt` | the model with effects in it: its equations, its fit |
+//! | `adopt`, `adopted` | the model with effects in it: its equations, its fit; how well it does |
 //! | `shapes` | time constants, knees and widths of adopted effects, and what is not known of them |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
 //! | `regions` | where the mismatch may sit |

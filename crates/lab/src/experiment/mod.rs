@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`tables`], [`entries`] | every table of the file: its keys, its reader, its schema, its reference |
+//! | [`faults`] | codes of what is refused |
 //! | `hints` | what writers of experiments mistake, also wordings of former versions |
 //! | [`procedure`] | the procedures of the library: experiments themselves |
 //! | `proposal` | from a recording to a file to look over |
@@ -11,6 +12,7 @@
 //! | `names`, `inferred`, `labels`, `columns` | what the names of the equations are; columns of the recording |
 //! | `left_out` | rows of the recording that are left out, and why |
 //! | `known`, `quantities`, `components`, `doubt` | inputs and readings; the errors that make them uncertain |
+//! | `coefficient` | the coefficient of an omitted effect, after which it is called |
 //! | `positions`, `noise`, `at_rest` | what labels stand for; what tells the noise |
 //! | `symbols`, `parameters`, `lower` | units of what is estimated; the equations |
 //! | `checked`, `words` | the checked experiment; texts in both languages |
@@ -52,27 +54,16 @@ pub use proposal::proposal;
 pub use purpose::Purpose;
 pub use words::Words;
 
-use gumption_format::toml::{FromToml, KeyRow, Table};
-use serde_json::{Value, json};
+use gumption_format::toml::{KeyRow, Table, schema_of};
+use serde_json::Value;
 
 use procedure::PROCEDURES;
 use tables::ExperimentTable;
 
 /// JSON Schema (draft-07) of experiments, for editors.
 pub fn schema() -> Value {
-    let mut schema = ExperimentTable::schema();
-    if let Value::Object(entries) = &mut schema {
-        let draft = "http://json-schema.org/draft-07/schema#";
-        entries.insert("$schema".into(), json!(draft));
-        entries.insert("title".into(), json!("gumption experiment"));
-        if let Some(Value::Object(properties)) = entries.get_mut("properties")
-            && let Some(Value::Object(procedure)) = properties.get_mut("procedure")
-        {
-            let names = PROCEDURES.iter().map(|procedure| procedure.name);
-            procedure.insert("enum".into(), names.collect());
-        }
-    }
-    schema
+    let names = PROCEDURES.iter().map(|procedure| procedure.name).collect();
+    schema_of::<ExperimentTable>("gumption experiment", ("procedure", names))
 }
 
 /// The reference of keys, table by table, as far as an experiment does not share them with a budget.

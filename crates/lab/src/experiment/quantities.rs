@@ -14,6 +14,7 @@ use super::tables::SharedTable;
 use super::words::words;
 use gumption_core::equations::Quantity;
 use gumption_core::quantity::Unit;
+use gumption_core::statistics::{effective_freedom, norm};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Amount, Named, OneOrMany, Slot, Stated};
 use gumption_gum::budget::Conventions;
@@ -232,11 +233,9 @@ fn prior(stated: &Quantities, one: &Known<'_>, value: f64) -> Prior {
             (component.u * term.coefficient, component.dof)
         })
         .collect();
-    let variance: f64 = parts.iter().map(|(u, _)| u * u).sum();
-    let welch: f64 = parts.iter().map(|(u, dof)| u.powi(4) / dof).sum();
     Prior {
         value,
-        u: variance.sqrt(),
-        dof: variance * variance / welch,
+        u: norm(parts.iter().map(|(u, _)| *u)),
+        dof: effective_freedom(parts.iter().copied()),
     }
 }

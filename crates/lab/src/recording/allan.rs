@@ -62,7 +62,7 @@ pub enum Unsuitable {
         /// The row, from 0.
         row: usize,
     },
-    /// The interval is not a positive number.
+    /// The interval is not a positive number, or so long that the recording has no length.
     Interval(f64),
     /// The probability is not between 0 and 1.
     Probability(f64),
@@ -120,7 +120,7 @@ pub fn regular_interval(times: &[f64]) -> Result<f64, Unsuitable> {
         return Err(Unsuitable::TooFew { found, needed: 2 });
     };
     let mean = (last - first) / (times.len() - 1) as f64;
-    if mean.is_nan() || mean <= 0.0 {
+    if !mean.is_finite() || mean <= 0.0 {
         return Err(Unsuitable::Interval(mean));
     }
     let intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -158,7 +158,7 @@ impl Allan {
         if let Some(row) = readings.iter().position(|reading| !reading.is_finite()) {
             return Err(Unsuitable::Missing { row });
         }
-        if !interval.is_finite() || interval <= 0.0 {
+        if !(interval * n as f64).is_finite() || interval <= 0.0 {
             return Err(Unsuitable::Interval(interval));
         }
         if probability.is_nan() || probability <= 0.0 || probability >= 1.0 {

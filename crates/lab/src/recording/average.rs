@@ -3,7 +3,7 @@
 use std::fmt;
 
 use gumption_core::special::student_t_sf;
-use gumption_core::statistics::{Dd, Serial, Series};
+use gumption_core::statistics::{Dd, Serial, Series, effective_freedom, norm};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
 /// no time that grows with the square of their length.
@@ -126,8 +126,7 @@ impl Average {
         }
         let count = parts.len() as f64;
         let sum = |of: &dyn Fn(&Average) -> f64| parts.iter().map(of).sum::<f64>();
-        let variance = sum(&|one| one.u * one.u);
-        let fourth = sum(&|one| one.u.powi(4) / one.dof);
+        let u = norm(parts.iter().map(|one| one.u));
         Some(Average {
             mean: sum(&|one| one.mean) / count,
             s: (sum(&|one| one.s * one.s) / count).sqrt(),
@@ -135,11 +134,11 @@ impl Average {
             missing: parts.iter().map(|one| one.missing).sum(),
             autocorrelation: sum(&|one| one.autocorrelation) / count,
             effective: sum(&|one| one.effective),
-            u: variance.sqrt() / count,
-            dof: if fourth > 0.0 {
-                variance * variance / fourth
-            } else {
-                sum(&|one| one.dof)
+            u: u / count,
+            dof: match u > 0.0 {
+                true => effective_freedom(parts.iter().map(|one| (one.u, one.dof))),
+                // Readings that do not scatter at all: as of equal parts, however small.
+                false => sum(&|one| one.dof),
             },
             minimum: parts
                 .iter()

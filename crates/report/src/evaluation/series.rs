@@ -191,7 +191,7 @@ impl Series<'_> {
             .judged
             .iter()
             .flatten()
-            .filter_map(difference)
+            .filter_map(|one| one.difference())
             .fold(0.0, |most: f64, d| most.max(d.abs()));
         let ten = power_of_thousand(largest);
         let difference_head = match ten {
@@ -230,7 +230,7 @@ impl Series<'_> {
                         .obtained
                         .map_or_else(|| NONE.to_string(), |x| number(x, place - 1))
                         .into(),
-                    difference(comparison).map_or(Cell::Empty, |d| {
+                    comparison.difference().map_or(Cell::Empty, |d| {
                         print(&at_place(d, place - 1).shifted(-ten)).into()
                     }),
                     yes_or_no(report, comparison.agrees()).into(),
@@ -315,15 +315,6 @@ fn mean_and_deviation(xs: &[f64]) -> [Cell; 2] {
         aligned(mean, s, 2).into(),
         significant(s, TABLE_DIGITS).into(),
     ]
-}
-
-/// Obtained less claimed, where that is a number and not a verdict.
-fn difference(comparison: &Comparison) -> Option<f64> {
-    let verdict = matches!(comparison.claimed.what, Figure::Validated(_));
-    comparison
-        .obtained
-        .filter(|_| !verdict)
-        .map(|obtained| obtained - comparison.claimed.value)
 }
 
 /// The power of a thousand that a column with this largest number is best written in.

@@ -87,6 +87,10 @@ form! {
     GroupResultJson of (group: &GroupResult) {
         /// Rows with an estimate.
         values: usize = group.values,
+        /// Rows without an estimate, though no fault says why: an empty field, or an overload.
+        without_estimate: usize = group.missing,
+        /// Rows with an estimate and without a u above zero: they count in the mean and its standard deviation, and nowhere else.
+        without_u: usize = group.unweighed,
         /// Mean of the estimates.
         mean: Number = Number(group.mean),
         /// Their experimental standard deviation; null of one.

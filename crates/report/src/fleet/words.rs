@@ -1,7 +1,7 @@
 //! What is said of a fleet in sentences.
 
 use gumption_fault::say;
-use gumption_fleet::{Drift, Measurand, SIGNIFICANCE, Scatter};
+use gumption_fleet::{Drift, GroupResult, Measurand, SIGNIFICANCE, Scatter};
 
 use super::Shown;
 use super::tables::expected;
@@ -31,7 +31,7 @@ impl Shown<'_> {
                 Scatter::AsClaimed => {}
             }
         }
-        let mut sentences = Vec::new();
+        let mut sentences = self.left_out(one);
         if tests == 0 {
             sentences.push(l.pick(
                 "No group has two estimates with an uncertainty: of their scatter nothing can be said.",
@@ -54,6 +54,27 @@ impl Shown<'_> {
             ).to_owned());
         }
         sentences
+    }
+
+    /// How many rows say too little, and where they are left out.
+    fn left_out(self, one: &Measurand) -> Vec<String> {
+        let sum = |of: fn(&GroupResult) -> usize| one.groups.iter().map(of).sum::<usize>();
+        let [missing, values, unweighed] = [
+            sum(|group| group.missing),
+            sum(|group| group.values),
+            sum(|group| group.unweighed),
+        ];
+        let mut sentences = Vec::new();
+        if missing > 0 {
+            let [missing, rows] = [missing, missing + values].map(|n| grouped(n as u64));
+            sentences.push(say!("Without an estimate, though no fault is stated: {missing} of {rows} rows. Their field is empty, or holds a number that instruments write for an overload (9.9e37 and more)."));
+        }
+        if unweighed > 0 {
+            let [unweighed, values] = [unweighed, values].map(|n| grouped(n as u64));
+            sentences.push(say!("Without a u that weighs them: {unweighed} of {values} estimates. They count in n, mean and s, and nowhere else: their u is missing, 0, or beyond the range of numbers."));
+        }
+        let sentences = sentences.into_iter();
+        sentences.map(|said| said.in_language(self.l)).collect()
     }
 
     /// The first of some groups, with their ratios.

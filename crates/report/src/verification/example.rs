@@ -155,7 +155,9 @@ fn line(row: &Row, comparison: &Comparison, l: Language) -> Vec<Cell> {
         unit(&report, comparison).into(),
         claim::published(comparison, l).into(),
         obtained.into(),
-        difference(comparison).map_or(Cell::Empty, |d| significant(d, 2).into()),
+        comparison
+            .difference()
+            .map_or(Cell::Empty, |d| significant(d, 2).into()),
         tolerance(comparison, asked, l).into(),
         asked
             .and_then(|_| comparison.log_relative_error())
@@ -245,15 +247,6 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
         | Figure::RegionFreedom
         | Figure::Validated(_) => String::new(),
     }
-}
-
-/// Obtained less published, where that is a number and not a verdict.
-pub(super) fn difference(comparison: &Comparison) -> Option<f64> {
-    let verdict = matches!(comparison.claimed.what, Figure::Validated(_));
-    comparison
-        .obtained
-        .filter(|_| !verdict)
-        .map(|obtained| obtained - comparison.claimed.value)
 }
 
 /// Whether the tolerance comes from the digits that the claim asks for, and not from the file's own words.

@@ -228,7 +228,7 @@ fn figure_json<'a>(row: &'a Row, comparison: &'a Comparison, l: Language) -> Fig
         unit: example::unit(&report, comparison),
         published: Number(comparison.claimed.value),
         obtained: comparison.obtained.map(Number),
-        difference: example::difference(comparison).map(Number),
+        difference: comparison.difference().map(Number),
         tolerance: Number(comparison.claimed.tolerance),
         digits: row
             .digits_wanted(comparison)

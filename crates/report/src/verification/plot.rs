@@ -4,7 +4,6 @@ use gumption_format::document::{Axis, Layer, Marks, Panel, Plot, Tone};
 use gumption_gum::propagate::Comparison;
 use gumption_verify::{Row, Verification};
 
-use super::example::difference;
 use crate::language::Language;
 
 /// A figure in one of the layers.
@@ -35,7 +34,7 @@ pub(super) fn figures(verification: &Verification, l: Language) -> Option<Plot> 
 }
 
 fn figure(row: &Row, comparison: &Comparison) -> Option<Figure> {
-    let difference = difference(comparison)?;
+    let difference = comparison.difference()?;
     Some(Figure {
         published: comparison.claimed.value,
         obtained: comparison.obtained?,

@@ -4,39 +4,14 @@ use gumption_core::special::normal_two_sided_quantile;
 
 use crate::claim::{Shape, Stated};
 use crate::printed::{Printed, leading};
+use crate::read::family::*;
 use crate::read::words::{figure_after, has, named_probability, signed_pair};
 use crate::units;
 
 use super::evidence::Evidence;
-use super::family::*;
 
 pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
-    const KEYS: &[&str] = &[
-        "±",
-        "+/-",
-        "limits",
-        "limit",
-        "mpe",
-        "maximum permissible error",
-        "tolerance",
-        "accuracy",
-        "within",
-        "half-width",
-        "half width",
-        "允许误差",
-        "最大允差",
-        "允差",
-        "误差限",
-        "极限",
-        "界限",
-        "半宽",
-        "不超过",
-        "specification",
-        "bound",
-        "范围",
-        "误差",
-    ];
-    let half_width = e.figure_or_used(KEYS)?;
+    let half_width = e.figure_or_used(&[LIMITS, &["误差"]].concat())?;
     let level = (is_95(text) || has(text, &["confidence of", "level of confidence", "置信"]))
         && !has(
             text,
@@ -98,31 +73,8 @@ fn normal_factor(e: &Evidence<'_>, text: &str) -> f64 {
 }
 
 pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
-    const KEYS: &[&str] = &[
-        "digital step",
-        "step",
-        "resolution",
-        "increment",
-        "scale interval",
-        "scale division",
-        "division",
-        "graduation",
-        "readability",
-        "least count",
-        "最小分度",
-        "最小刻度",
-        "刻度",
-        "分辨力",
-        "分辨率",
-        "步进",
-        "分度值",
-        "末位",
-        "量化单位",
-        "lsb",
-        "digit",
-    ];
     const HALF: &[&str] = &["±", "+/-", "half", "半宽"];
-    if let Some(step) = e.figure(KEYS) {
+    if let Some(step) = e.figure(STEP) {
         // `resolution ± 0.005` is half of it, and so is `estimated to a fifth of a division (half-width 0.005)`.
         let named = figure_after(text, &["half-width", "half width", "半宽"]);
         let half = named.is_some_and(|half| half.value == step.value)
@@ -280,28 +232,11 @@ fn coverage_factor(text: &str) -> Option<f64> {
 }
 
 pub(super) fn full_width(e: &Evidence<'_>, text: &str) -> Option<Stated> {
-    const KEYS: &[&str] = &[
-        "full width",
-        "total width",
-        "whole width",
-        "overall width",
-        "interval of width",
-        "full interval",
-        "width",
-        "peak-to-peak",
-        "peak to peak",
-        "全宽",
-        "总宽",
-        "宽度",
-        "峰峰值",
-        "峰-峰值",
-        "total span",
-        "span",
-    ];
     // The ± column of a full table holds the half that was used.
     let widths = if e.full { 2.0 } else { 1.0 };
     let used = || e.used.map(|used| used.clone().scaled(widths));
-    let width = e.figure(KEYS).or_else(used)?;
+    let keys = [FULL_WIDTH, &["width", "宽度", "span"]].concat();
+    let width = e.figure(&keys).or_else(used)?;
     let shape = shape(text).unwrap_or(Shape::Rectangular);
     Some(Stated::FullWidth { width, shape })
 }
@@ -338,13 +273,14 @@ pub(super) fn unequal(text: &str) -> Option<Stated> {
     })
 }
 
-pub(super) fn shape(text: &str) -> Option<Shape> {
+/// The distribution that a text in small letters names.
+pub(crate) fn shape(text: &str) -> Option<Shape> {
     let beta = || figure_after(text, &["β", "beta"]).map_or(0.5, |b| b.value);
     if has(text, TRIANGULAR) {
         Some(Shape::Triangular)
     } else if has(text, TRAPEZOID) {
         Some(Shape::Trapezoidal(beta()))
-    } else if has(text, &["arcsine", "u-shaped", "u shaped", "反正弦", "u形"]) {
+    } else if has(text, ARCSINE) {
         Some(Shape::Arcsine)
     } else if has(text, TWO_POINT) {
         Some(Shape::TwoPoint)

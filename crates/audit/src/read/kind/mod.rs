@@ -4,12 +4,10 @@
 //! |---|---|
 //! | `evidence` | what a row says |
 //! | `subject` | what its words are about |
-//! | `family` | families of words |
 //! | `readings` | what is known from readings |
 //! | `limits` | limits, steps and certificates |
 
 mod evidence;
-mod family;
 mod limits;
 mod readings;
 mod subject;
@@ -19,11 +17,12 @@ use crate::printed::Printed;
 use crate::units;
 
 use super::converter;
+use super::family::*;
 use super::words::{figure_after, has, named_probability, with_units_inside};
 
 pub use evidence::Evidence;
-use family::*;
-use limits::{certificate, cycling, full_width, limits, shape, step, unequal};
+pub(crate) use limits::shape;
+use limits::{certificate, cycling, full_width, limits, step, unequal};
 use readings::{alike, deviation, range};
 use subject::{Subject, subject};
 
@@ -72,14 +71,6 @@ pub(crate) fn names_distribution(word: &str) -> bool {
 
 /// Words without the clause that says in which other row this one is contained: what that one is, is not said of this.
 fn own_words(words: &str) -> String {
-    const CONTAINED: [&str; 6] = [
-        "contained in",
-        "included in",
-        "已包含",
-        "包含在",
-        "已含",
-        "已计入",
-    ];
     let ends = |c: char| matches!(c, ';' | ',' | '(');
     let clause = CONTAINED
         .iter()
@@ -187,34 +178,8 @@ fn relative(stated: &Stated, text: &str) -> Relative {
     let Some(fraction) = units::fraction(unit) else {
         return Relative::No;
     };
-    let full_scale = figure_after(
-        text,
-        &[
-            "full scale of",
-            "full scale",
-            "fs =",
-            "f.s.",
-            "fs",
-            "range of",
-            "满量程",
-            "满度",
-            "量程",
-        ],
-    );
-    let of_full_scale = has(
-        text,
-        &[
-            "of full scale",
-            "full scale",
-            "f.s.",
-            "fs",
-            "满量程",
-            "满度",
-            "量程",
-            "of range",
-            "of the range",
-        ],
-    );
+    let full_scale = figure_after(text, &[FULL_SCALE, &["range of"]].concat());
+    let of_full_scale = has(text, FULL_SCALE) || has(text, &["of range", "of the range"]);
     match full_scale {
         Some(scale) if of_full_scale => Relative::OfFullScale(fraction, scale.value),
         _ => Relative::OfValue(fraction),

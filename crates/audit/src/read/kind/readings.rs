@@ -3,10 +3,10 @@
 use crate::claim::{Stated, range_factor};
 use crate::printed::Printed;
 use crate::read::counts::{count_after, count_before, trailing_count};
+use crate::read::family::*;
 use crate::read::words::{figure_after, find, has};
 
 use super::evidence::Evidence;
-use super::family::*;
 
 /// What says that a figure is that of the mean already.
 const OF_THE_MEAN: &[&str] = &[

@@ -1,10 +1,10 @@
 //! What the words of a row are about: which kind of knowledge they state.
 
 use crate::read::counts::{count_before, trailing_count};
+use crate::read::family::*;
 use crate::read::words::{find, has};
 
 use super::evidence::Evidence;
-use super::family::*;
 use super::limits::shape;
 use super::readings::count;
 
@@ -38,6 +38,7 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
     let reading = has(text, DEVIATION)
         || has(text, POOLED)
         || count_before(text, &["reading", "observation"]).is_some();
+    let limited = first(LIMITS).into_iter().chain(first(RECTANGULAR)).min();
     let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
     // Whatever else the words are about: they say what the figure is, where nothing was divided.
     if has(text, AS_STATED) && (e.used.is_none() || e.u_is_used()) {
@@ -55,11 +56,11 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
     } else if reading && has(text, FIT) {
         // s is that of the residuals, or within groups, of which u is no simple part.
         Some(Subject::Standard)
-    } else if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
+    } else if reading && (limited.is_none() || limited >= first(DEVIATION)) {
         Some(Subject::Readings)
     } else if has(text, CYCLING) && !counts_cycles(text) {
         Some(Subject::Cycling)
-    } else if has(text, LIMITS) || shape(text).is_some() {
+    } else if limited.is_some() || shape(text).is_some() {
         Some(Subject::Limits)
     } else {
         (has(text, STANDARD) || has(text, AS_STATED)).then_some(Subject::Standard)

@@ -38,8 +38,6 @@ pub fn footers(
 
 /// U by its place, where no label of it is known: below u_c, in its column, and not smaller.
 fn expanded_below(grid: &Grid, sheet: usize, located: &mut Located, claimed: &mut Claimed) {
-    /// Between them may stand ν_eff, k and the probability.
-    const NEAR: usize = 4;
     let Some(u_c) = claimed
         .footer
         .u_c
@@ -51,7 +49,7 @@ fn expanded_below(grid: &Grid, sheet: usize, located: &mut Located, claimed: &mu
     if u_c.at.sheet != sheet {
         return;
     }
-    let below = u_c.at.row + 1..=u_c.at.row + NEAR;
+    let below = u_c.at.row + 1..=u_c.at.row + footer::ROWS_TO_EXPANDED;
     let stated = below.filter(|row| !located.is_row(*row)).find_map(|row| {
         let (_, label) = grid.filled(row).next()?;
         let is_open = footer::label(&label.text, &claimed.measurand).is_none();

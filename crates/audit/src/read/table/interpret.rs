@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::claim::{Claimed, Relative, Row, Stated};
 use crate::printed::Printed;
+use crate::read::family::{CONTAINED, FULL_SCALE};
 use crate::read::kind::{self, Evidence};
 use crate::read::quotients::quotients;
 use crate::read::series;
@@ -56,7 +57,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     let nominal = nominal(claimed);
     let (range, amounts) = (range(claimed), amounts(claimed));
     for row in &mut claimed.rows {
-        let own = match has(&row.words.to_lowercase(), RANGE) {
+        let own = match has(&row.words.to_lowercase(), &ranges()) {
             true => range.as_ref(),
             false => amounts.iter().find(|amount| row.shows(amount, 1.0)),
         };
@@ -107,7 +108,7 @@ fn nominal(claimed: &Claimed) -> Option<Printed> {
     };
     // A range is another whole than the value.
     let is_missed = |amount: &&Printed| {
-        let of_value = |row: &&Row| !has(&row.words.to_lowercase(), RANGE);
+        let of_value = |row: &&Row| !has(&row.words.to_lowercase(), &ranges());
         let mut rows = claimed.rows.iter().filter(of_value);
         rows.any(|row| units::MISSED.iter().any(|ratio| row.shows(amount, *ratio)))
     };
@@ -142,11 +143,13 @@ fn amounts(claimed: &Claimed) -> Vec<Printed> {
 fn range(claimed: &Claimed) -> Option<Printed> {
     let lines = claimed.words.lines();
     let mut texts = [claimed.title.as_str()].into_iter().chain(lines);
-    texts.find_map(|text| words::figure_after(text, RANGE))
+    texts.find_map(|text| words::figure_after(text, &ranges()))
 }
 
 /// Words for what a percentage may be of that is not the value.
-const RANGE: &[&str] = &["range", "full scale", "f.s.", "fs", "span", "量程", "满度"];
+fn ranges() -> Vec<&'static str> {
+    [&["range"], FULL_SCALE, &["span"]].concat()
+}
 
 /// What a note knows of a quantity that no row has, unless a row has its figure.
 fn add_absent(claimed: &mut Claimed) {
@@ -172,24 +175,17 @@ fn add_absent(claimed: &mut Claimed) {
 
 /// What words say, if they say that a row is not to be counted.
 pub(super) fn not_counted(words: &str) -> Option<String> {
-    const CONTAINED: &[&str] = &[
-        "contained in",
+    const NOT_COUNTED: &[&str] = &[
         "already contained",
         "already included",
-        "included in",
-        "is not counted",
         "not counted",
         "left out",
         "for information only",
         "not added",
-        "已包含",
-        "包含在",
-        "已含",
         "不再计",
         "不计入",
         "不重复计",
         "不另计",
-        "已计入",
         "略去",
         "不予计",
         "不单独",
@@ -207,7 +203,7 @@ pub(super) fn not_counted(words: &str) -> Option<String> {
     let lower = words.to_lowercase();
     let name = lower.split(PARTED).next().unwrap_or_default();
     let of_clause = |clause: &str| {
-        let said = CONTAINED.iter().any(|key| {
+        let said = CONTAINED.iter().chain(NOT_COUNTED).any(|key| {
             let at = find(clause, key, 0);
             at.is_some_and(|at| !is_of_another(clause, at..at + key.len(), name))
         });

@@ -1,6 +1,7 @@
 //! What stands alone: numbers, units, names.
 
 use super::{Binding, Lowering, Value};
+use crate::letters::narrow;
 use crate::model::MeasurandSource;
 use crate::model::catalogue;
 use crate::model::faults;
@@ -182,14 +183,8 @@ fn is_of_uncertainty(name: &str) -> bool {
 
 /// A name in the letters of another keyboard in plain ones: `Ｖ`.
 fn full_width(name: &str) -> Option<String> {
-    let plain = |c: char| match c {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0),
-        c => Some(c),
-    };
-    name.chars()
-        .map(plain)
-        .collect::<Option<String>>()
-        .filter(|plain| plain != name)
+    let plain: String = name.chars().map(narrow).collect();
+    (plain != name).then_some(plain)
 }
 
 /// The two names of `mg` for `m * g`.

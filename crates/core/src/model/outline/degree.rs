@@ -1,6 +1,6 @@
 //! In which power a name stands in a formula, as it is written.
 
-use crate::model::catalogue::is_reserved;
+use crate::model::catalogue::{find, is_reserved};
 use crate::model::syntax::{Expr, Infix, Node};
 
 /// The power of a name in an expression, at most 2 being told apart; nothing where it stands in no power: in a divisor, an exponent
@@ -25,7 +25,8 @@ pub(super) fn degree(expr: &Expr, name: &str) -> Option<u8> {
             name: called,
             arguments,
         } => {
-            let is_linear = LINEAR.contains(&called.text.as_str()) || !is_reserved(&called.text);
+            let known = find(&called.text).is_some_and(|function| function.is_linear);
+            let is_linear = known || !is_reserved(&called.text);
             let degrees: Option<Vec<u8>> = arguments.iter().map(of).collect();
             degrees?.into_iter().max().filter(|_| is_linear)
         }
@@ -40,21 +41,6 @@ pub(super) fn degree(expr: &Expr, name: &str) -> Option<u8> {
         _ => None,
     }
 }
-
-/// Functions that are linear in their arguments, or in one while the others are held.
-const LINEAR: [&str; 11] = [
-    "sum",
-    "mean",
-    "value_in",
-    "dot",
-    "cross",
-    "cmul",
-    "conj",
-    "rotate_x",
-    "rotate_y",
-    "rotate_z",
-    "interpolate",
-];
 
 #[cfg(test)]
 mod tests {
@@ -77,6 +63,8 @@ mod tests {
             "q*if(t > 1, 1, 0)",
             "q * 1 'mV/N' * sin(x)",
             "f(q)",
+            "dot([q, 1], [a, b])",
+            "interpolate(t, [0, 1], [q, a])",
         ] {
             assert!(linear(text), "{text}");
         }
@@ -87,6 +75,8 @@ mod tests {
             "load/q",
             "load^q",
             "sin(q)",
+            "norm([q, a])",
+            "prod([q, a])",
             "(a + q)*(b - q)",
         ] {
             assert!(!linear(text), "{text}");

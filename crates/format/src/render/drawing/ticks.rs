@@ -1,6 +1,7 @@
 //! Numbers along an axis.
 
 use crate::document::Scale;
+use gumption_core::letters;
 
 /// Places inside the limits with their labels: a few round numbers, or powers of ten.
 pub(super) fn ticks([low, high]: [f64; 2], scale: Scale) -> Vec<(f64, String)> {
@@ -69,12 +70,8 @@ fn label(tick: f64, step: f64) -> String {
 
 /// A power as it is printed in a figure: `1×10⁶`.
 fn raised(base: &str, exponent: i32) -> String {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let exponent = exponent.to_string();
-    let raised = exponent.chars().map(|c| match c.to_digit(10) {
-        Some(digit) => RAISED[digit as usize],
-        None => '⁻',
-    });
+    let raised = exponent.chars().map(letters::raised);
     base.chars().chain(raised).collect()
 }
 

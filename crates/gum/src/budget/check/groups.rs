@@ -13,6 +13,7 @@ use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
 use crate::elimination::is_definite;
 use gumption_core::distribution::{CopulaError, Distribution, StudentT, latent_correlation};
+use gumption_core::special::roots::last;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
@@ -391,15 +392,7 @@ fn mend(members: &[usize], statements: &[&Statement], r: &[f64], index: usize) -
     if smallest(peak) < -ROUNDING {
         return None;
     }
-    let (mut bad, mut good) = (r[index], peak);
-    for _ in 0..60 {
-        let middle = (bad + good) / 2.0;
-        if smallest(middle) < 0.0 {
-            bad = middle
-        } else {
-            good = middle
-        }
-    }
+    let good = last(peak, r[index], |value| smallest(value) >= 0.0);
     let inwards = if good > r[index] {
         (good * 1000.0).ceil()
     } else {

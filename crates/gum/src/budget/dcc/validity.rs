@@ -85,18 +85,11 @@ fn after(begin: Day, period: &str) -> Option<Day> {
         return None;
     }
     let all = 12 * begin.year + begin.month - 1 + 12 * years + months;
-    let (mut year, mut month) = (all / 12, all % 12 + 1);
+    let (year, month) = (all / 12, all % 12 + 1);
     // A month after the last of January is the last of February.
-    let mut day = begin.day.min(days_of(year, month)) + days;
-    while day > days_of(year, month) {
-        day -= days_of(year, month);
-        (year, month) = if month == 12 {
-            (year + 1, 1)
-        } else {
-            (year, month + 1)
-        };
-    }
-    Some(Day { year, month, day })
+    let day = begin.day.min(days_of(year, month));
+    let without_days = Day { year, month, day };
+    Day::at(without_days.since_1970() + days.cast_signed())
 }
 
 #[cfg(test)]

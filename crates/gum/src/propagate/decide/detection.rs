@@ -9,6 +9,7 @@ use crate::propagate::options::Workers;
 use crate::propagate::result::{
     BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult, Run,
 };
+use gumption_core::special::roots::try_last;
 use gumption_core::special::{normal_cdf, normal_pdf, normal_quantile, normal_upper_quantile};
 
 /// Characteristic limits of every measurand that a budget asks for, in its order.
@@ -79,7 +80,9 @@ fn from_u(
     const DOUBLINGS: u32 = 50;
     for _ in 0..DOUBLINGS {
         if missing(far)? >= 0.0 {
-            detection_limit = Some(root(decision_threshold, far, &missing)?);
+            let is_missing = |y: f64| missing(y).map(|missing| missing < 0.0).ok_or(());
+            let [_, limit] = try_last(decision_threshold, far, usize::MAX, is_missing).ok()?;
+            detection_limit = Some(limit);
             break;
         }
         far *= 2.0;
@@ -94,22 +97,6 @@ fn from_u(
             },
         },
     })
-}
-
-/// Where a function that is negative at `low` and not at `high` changes its sign.
-fn root(low: f64, high: f64, f: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
-    let (mut low, mut high) = (low, high);
-    loop {
-        let middle = low + (high - low) / 2.0;
-        if middle <= low || middle >= high {
-            return Some(high);
-        }
-        if f(middle)? < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
 }
 
 /// ISO 11929-1:2019 clauses 9 and 10, for a normal distribution cut off at zero.

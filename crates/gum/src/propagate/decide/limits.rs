@@ -9,6 +9,7 @@ use super::kernel::Kernel;
 use super::risks::{Known, risks};
 use crate::budget::{DecisionRule, GlobalRisks, Guard, Interval};
 use gumption_core::distribution::Distribution;
+use gumption_core::special::roots::last;
 
 /// What the limits follow from.
 pub(super) struct Situation<'a> {
@@ -120,7 +121,7 @@ impl Situation<'_> {
             let out = sign * (sign * limit).max(sign * from);
             let far = doublings((self.kernel.u)(limit)).map(|d| out + sign * d);
             let beyond = far.take(DOUBLINGS).find(|far| !holds(*far));
-            border(from, beyond.unwrap_or(sign * f64::INFINITY), holds)
+            last(from, beyond.unwrap_or(sign * f64::INFINITY), holds)
         };
         Some(Interval {
             lower: end(self.tolerance.lower, -1.0),
@@ -234,7 +235,7 @@ impl Situation<'_> {
         let mut far = width;
         for _ in 0..60 {
             if missing(far) > 0.0 {
-                return tolerance + away * border(0.0, far, &|d| missing(d) <= 0.0);
+                return tolerance + away * last(0.0, far, |d| missing(d) <= 0.0);
             }
             far *= 2.0;
         }
@@ -284,7 +285,7 @@ fn least_width(tries: Vec<f64>, suffices: &dyn Fn(f64) -> bool) -> Option<f64> {
     let enough = tries.iter().position(|w| suffices(*w))?;
     Some(match enough {
         0 => tries[0],
-        _ => border(tries[enough], tries[enough - 1], suffices),
+        _ => last(tries[enough], tries[enough - 1], suffices),
     })
 }
 
@@ -307,25 +308,6 @@ fn highest(mut from: f64, mut to: f64, f: &dyn Fn(f64) -> f64) -> f64 {
         }
     }
     inner[0]
-}
-
-/// The last value for which a condition holds that holds at `from` and mostly not at `to`; `to` where it does.
-fn border(from: f64, to: f64, holds: &dyn Fn(f64) -> bool) -> f64 {
-    if to.is_infinite() || holds(to) {
-        return to;
-    }
-    let (mut yes, mut no) = (from, to);
-    loop {
-        let middle = yes + (no - yes) / 2.0;
-        if middle == yes || middle == no {
-            return yes;
-        }
-        if holds(middle) {
-            yes = middle;
-        } else {
-            no = middle;
-        }
-    }
 }
 
 #[cfg(test)]

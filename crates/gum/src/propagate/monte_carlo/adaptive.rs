@@ -294,6 +294,7 @@ mod tests {
     use super::*;
     use crate::budget::{MonteCarloSettings, Points, Trials};
     use crate::propagate::result::MonteCarlo;
+    use gumption_lanes::{Block, LANES};
 
     fn adapt(
         source: &Sampled,
@@ -401,8 +402,12 @@ mod tests {
             y[0] = if s.uniform() < 1e-5 { 1.0 } else { f64::NAN }
         });
         for procedure in [Adaptive::Stein, Adaptive::Jcgm101] {
-            let (_, adaptive) = adapt(&source, (procedure, 2, 1_000_000), 2);
+            let (outcome, adaptive) = adapt(&source, (procedure, 2, 1_000_000), 2);
             assert!(!adaptive.reached);
+            assert_eq!(
+                outcome.run.trials, 1_000_000,
+                "{procedure:?} went on to the end"
+            );
         }
     }
 
@@ -415,8 +420,43 @@ mod tests {
         });
         let (outcome, adaptive) = adapt(&source, (Adaptive::Stein, 2, 5_000_000), 2);
         assert_eq!(adaptive.delta, [0.05, 0.05]);
-        // t_9(1 − 0.05/16) = 3.5; end of interval 2.67·9.3/100 per batch: (3.5·0.248/0.05)² ≈ 300.
         let batches = outcome.run.trials / 10_000;
-        assert!((80..900).contains(&batches), "{batches}");
+        assert_eq!(batches, wanted_of(&source, 0.05));
+        // t_9(1 − 0.05/16) = 3.5465, and an end of the interval of 10⁴ trials has a standard deviation of
+        // 9.3·√(0.025·0.975/10⁴)/φ(1.96) = 0.2484. So h = (t s/δ)² = 310.4·s²/σ², of which nine degrees of freedom leave 0.108 to
+        // 3.30 in 99.9 %; of two ends the larger one counts.
+        let ratio = batches as f64 / 310.4;
+        assert!((0.108..3.30).contains(&ratio), "{batches}");
+    }
+
+    /// Stein's number of batches by the second of two outputs, from the trials of the first ten, each sorted (JCGM 101, 7.7).
+    fn wanted_of(source: &Sampled, delta: f64) -> u64 {
+        const BATCH: usize = 10_000;
+        let mut worker = source.worker();
+        let mut batch = |number| {
+            source.start(&mut worker, number);
+            let mut blocks = [Block([0.0; LANES]); 2];
+            let mut values = Vec::new();
+            while values.len() < BATCH {
+                source.next(&mut worker, &mut blocks);
+                values.extend(blocks[1].0);
+            }
+            values.truncate(BATCH);
+            values.sort_by(f64::total_cmp);
+            let [mean, u] = mean_and_sd(&values);
+            [mean, u, values[249], values[9749]]
+        };
+        let batches: Vec<Results> = (0..10).map(&mut batch).collect();
+        let sd = |of: usize| mean_and_sd(&batches.iter().map(|one| one[of]).collect::<Vec<_>>())[1];
+        let largest = (0..4).map(sd).fold(0.0, f64::max);
+        let t = student_t_upper_quantile(0.05 / 16.0, 9.0);
+        (t * largest / delta).powi(2) as u64 + 1
+    }
+
+    fn mean_and_sd(values: &[f64]) -> [f64; 2] {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        [mean, (squares / (n - 1.0)).sqrt()]
     }
 }

@@ -3,7 +3,9 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
+//! | [`factor`] | the triangular factor of a positive semidefinite matrix |
 //! | [`assembly`] | how the values of an input come about |
+//! | [`margin`] | margins of a Gaussian copula |
 //! | [`budget_source`] | trials of the model |
 //! | [`thread_pool`] | threads that share the work of a run |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
@@ -13,6 +15,7 @@
 //! | [`decisive_cells`] | which values matter |
 //! | [`resolve`] | exact order statistics, where needed from trials drawn again |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
+//! | [`histogram`] | the picture of an output distribution |
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
 //! | [`heavy_components`] | components of few degrees of freedom that leave the output without moments |
@@ -23,6 +26,7 @@
 //! | [`quasi`] | quasi-random points in place of trials |
 //! | [`comoments`] | covariance of several outputs |
 //! | [`region`] | coverage regions of several outputs |
+//! | [`outcome`] | what the method is given and gives |
 
 mod adaptive;
 mod assembly;

@@ -3,6 +3,7 @@
 use super::super::{Origin, calibrate, plan};
 use super::{campaign, near, planned};
 use crate::experiment::Scope;
+use nalgebra::DMatrix;
 
 /// A line through readings: `U = K*omega*(1 + e_rate) + b`.
 const RATE: &str = r#"
@@ -307,8 +308,7 @@ fn results_are_functions_of_parameters() {
 fn the_norm_of_readings_is_a_known_constant() {
     // |K (U − b)| = g for readings in all directions.
     let (k, b) = (0.0025, [12.0, -7.0, 3.0]);
-    let mut csv = String::from("x,y,z\n");
-    for (theta, phi) in [
+    let directions = [
         (0.1, 0.2),
         (0.8, 1.0),
         (1.5, 2.1),
@@ -317,13 +317,16 @@ fn the_norm_of_readings_is_a_known_constant() {
         (0.5, 5.1),
         (1.2, 0.4),
         (1.9, 5.9),
-    ] {
-        let (theta, phi): (f64, f64) = (theta, phi);
-        let n = [
+    ]
+    .map(|(theta, phi): (f64, f64)| {
+        [
             theta.sin() * phi.cos(),
             theta.sin() * phi.sin(),
             theta.cos(),
-        ];
+        ]
+    });
+    let mut csv = String::from("x,y,z\n");
+    for n in directions {
         let u: Vec<String> = (0..3)
             .map(|i| (b[i] + 9.8 * n[i] / k).to_string())
             .collect();
@@ -351,8 +354,19 @@ file = "run.csv"
     let c = &found.figures.coefficients;
     near(c[0].value, k, 1e-9);
     near(c[1].value, b[0], 1e-7);
+    near(c[2].value, b[1], 1e-7);
     near(c[3].value, b[2], 1e-6);
-    assert!(c[1].u > 0.0 && c[1].u < 0.2, "{}", c[1].u);
+    // Along n the equation is ρ = g/K = n·(r − b): rows [1 n] determine (ρ, b), each with u = 0.1, and u(K) = K²/g·u(ρ).
+    let rows = DMatrix::from_fn(directions.len(), 4, |row, column| match column {
+        0 => 1.0,
+        axis => directions[row][axis - 1],
+    });
+    let inverse = rows.tr_mul(&rows).try_inverse().expect("full rank");
+    let u = |place: usize| 0.1 * inverse[(place, place)].sqrt();
+    near(c[0].u, k * k / 9.8 * u(0), 1e-6);
+    for axis in 1..4 {
+        near(c[axis].u, u(axis), 1e-6);
+    }
 }
 
 #[test]
@@ -374,6 +388,7 @@ fn written_budgets_give_the_same_uncertainties() {
             .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
         let budget = &loaded.rows[0].budget;
         let evaluation = evaluate(budget, &Options::default()).expect("a result");
+        assert_eq!(evaluation.results.len(), places.len());
         for (result, place) in evaluation.results.iter().zip(&places) {
             let one = &found.figures.coefficients[*place];
             near(result.gum.estimate, one.value, 1e-12);
@@ -385,7 +400,8 @@ fn written_budgets_give_the_same_uncertainties() {
             let reported = result.reported(&budget.conventions);
             assert!(reported.expanded().expect("U") > 0.98 * expanded);
         }
-        if let (Some(joint), [_, _]) = (&evaluation.joint, places.as_slice()) {
+        assert_eq!(evaluation.joint.is_some(), places.len() > 1);
+        if let Some(joint) = &evaluation.joint {
             let v = &found.figures.covariance;
             let r = v[(0, 1)] / (v[(0, 0)] * v[(1, 1)]).sqrt();
             assert!((joint.correlation[(0, 1)] - r).abs() < 1e-9);

@@ -14,8 +14,10 @@
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history`, `ringing`, `slewing` | what a stimulus does otherwise than declared |
+//! | `delays`, `earlier` | an output that follows what a column was or will be; what it was between the rows |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
+//! | `norm` | models that are the length of a vector of readings |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `excursions` | what deviates about one value of a column |
@@ -25,8 +27,10 @@
 //! | `readout`, `bits` | rounding and slips, readings that stand still, weights of the bits of a converter |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `finer` | what is tried beside the grids once something was found: values between theirs |
+//! | `sets` | several terms of one kind, where one alone explains nothing |
 //! | `by_label` | and sizes that differ from one label to another |
 //! | `generics` | competitors without a name |
+//! | `user` | explanations of the user's own |
 
 mod absorbed;
 mod angles;

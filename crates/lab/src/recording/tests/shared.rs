@@ -211,11 +211,16 @@ fn runs_and_plateaus() {
         let average = Average::of(&resistance[rows.clone()]).expect("readings");
         assert!(average.effective <= average.n as f64 && average.u > 0.0);
         assert!(average.u >= average.s / (average.n as f64).sqrt() * 0.999);
-        if let Some(drift) = Drift::of(&time[rows.clone()], &resistance[rows]) {
-            assert!(
-                drift.u_slope > 0.0 && (0.0..=1.0).contains(&drift.p_value),
-                "{drift:?}"
-            );
+        let (time, resistance) = (&time[rows.clone()], &resistance[rows]);
+        if let Some(drift) = Drift::of(time, resistance) {
+            // Of n_eff independent residuals at equal intervals over T: s·√12/(T·√n_eff).
+            let pairs = time.iter().zip(resistance);
+            let residuals: Vec<f64> = pairs.map(|(t, x)| x - drift.slope * t).collect();
+            let left = Average::of(&residuals).expect("readings");
+            let duration = time[time.len() - 1] - time[0];
+            let of_residuals = left.s * 12.0_f64.sqrt() / (duration * left.effective.sqrt());
+            let ratio = drift.u_slope / of_residuals;
+            assert!((ratio - 1.0).abs() < 0.2, "{ratio}: {drift:?}");
         }
     }
 }

@@ -124,7 +124,7 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
             .finer
             .times(sharpened(fitted, widths.into(), &term))
             .into_iter();
-        let single = single.map(|width| {
+        let single = single.map(five_digits).map(|width| {
             let share = figure(100.0 * width / (most - least));
             let label = begun_label(format!("width {share} % of the range"), start);
             Variation::one(label, term(width)).shaped("w", width, &unit)

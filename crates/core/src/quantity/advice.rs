@@ -225,7 +225,7 @@ pub fn symbol_of_name(name: &str) -> Option<String> {
     let lower = name.to_lowercase();
     let prefixed = || {
         prefix_names().find_map(|(word, prefix)| {
-            let symbol = by_english_name(lower.strip_prefix(word)?)?;
+            let symbol = by_english_name(lower.strip_prefix(word)?.trim_start())?;
             Some(format!("{prefix}{symbol}"))
         })
     };

@@ -30,12 +30,11 @@ pub fn root_mean_square(values: impl Iterator<Item = f64> + Clone, count: f64) -
         false => a.max(v.abs()),
     };
     let largest = values.clone().fold(0.0, larger);
-    if !largest.is_finite() {
+    if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
-    let unit = power_of_two(largest);
-    let squares: f64 = values.map(|v| (v / unit) * (v / unit)).sum();
-    unit * (squares / count).sqrt()
+    let squares: f64 = values.map(|v| (v / largest).powi(2)).sum();
+    largest * (squares / count).sqrt()
 }
 
 /// The power of two that is next below the size of a number: a division by it is exact. Of zero, infinity and NaN it is one.

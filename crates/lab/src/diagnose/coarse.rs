@@ -16,7 +16,7 @@ use super::design::{Design, Linear, Whole};
 use super::fit::Fit;
 use crate::recording::Labels;
 
-/// Means in a block: a tenth of a block is a fifth of the quickest time constant that is looked for, over which
+/// Means in a block, at least: a tenth of a block is a fifth of the quickest time constant that is looked for, over which
 /// the curvature of its decay changes a mean by (1/5)²/24 of it, less than anything that is told.
 const PIECES: usize = 10;
 
@@ -94,7 +94,7 @@ pub(super) fn pieces_of(design: &Design<'_>) -> usize {
 /// Rows in a mean, at most.
 fn longest(design: &Design<'_>) -> usize {
     let block = design.blocks.iter().map(Vec::len).max().unwrap_or(1);
-    block.div_ceil(PIECES)
+    (block / PIECES).max(1)
 }
 
 /// Successive rows of one block, with the same labels.

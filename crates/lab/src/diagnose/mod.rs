@@ -27,7 +27,6 @@
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise`, `noise_claims` | what is known about the noise of every row; what the case claims about it |
 //! | `noise_laws`, `noise_rounding`, `noise_scale` | what the course of the noise may be beside a fit; readings in coarse steps; a scale that wanders |
-//! | `resolution` | the steps of readings, as they show them themselves |
 //! | `replicates`, `noise_growth`, `noise_labels`, `noise_outputs`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, goes together in several outputs, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |

@@ -3,7 +3,6 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
-//! | [`factor`] | the triangular factor of a positive semidefinite matrix |
 //! | [`assembly`] | how the values of an input come about |
 //! | [`margin`] | margins of a Gaussian copula |
 //! | [`budget_source`] | trials of the model |

@@ -44,7 +44,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             true => format!("gap {} {unit}", figure(width)),
             false => String::new(),
         };
-        Variation::one(begun_label(gap, start), term)
+        begun_at(start, Variation::one(gap, term))
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants
@@ -126,22 +126,20 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
             .into_iter();
         let single = single.map(five_digits).map(|width| {
             let share = figure(100.0 * width / (most - least));
-            let label = begun_label(format!("width {share} % of the range"), start);
+            let label = format!("width {share} % of the range");
             Variation::one(label, term(width)).shaped("w", width, &unit)
         });
         let mean = mean_of(&widths.map(|width| behind(width).values.to_vec()));
         let played = played_text(label, "w", start);
         let text = format!("mean of ({label} - {played}) over w = {all}");
         let mean = Modifier::new(mean, text, fitted.step_unit(column));
-        let even = Variation::one(
-            begun_label("several widths".to_owned(), start),
-            on_output(mean),
-        );
+        let even = Variation::one("several widths", on_output(mean));
         let apart = widths.into_iter().skip(1).step_by(2);
         let apart = apart.map(|width| on_output(behind(width)));
-        let label = begun_label("two widths".to_owned(), start);
-        let uneven = Variation::of(label, apart.collect());
-        single.chain([even, uneven]).collect::<Vec<Variation>>()
+        let uneven = Variation::of("two widths", apart.collect());
+        let all = single.chain([even, uneven]);
+        all.map(|form| begun_at(start, form))
+            .collect::<Vec<Variation>>()
     };
     Start::ALL.into_iter().flat_map(begun).collect()
 }
@@ -154,11 +152,15 @@ fn played_text(label: &str, width: &str, start: Start) -> String {
     }
 }
 
-/// What a variant is called, with where its play begins.
-fn begun_label(label: String, start: Start) -> String {
-    let parts = [label.as_str(), start.label()];
+/// A variant whose play begins so: wherever it does is as likely, and together they are one form.
+fn begun_at(start: Start, form: Variation) -> Variation {
+    let parts = [form.label.as_str(), start.label()];
     let told = parts.into_iter().filter(|part| !part.is_empty());
-    told.collect::<Vec<&str>>().join(", ")
+    Variation {
+        label: told.collect::<Vec<&str>>().join(", "),
+        weight: form.weight / Start::ALL.len() as f64,
+        ..form
+    }
 }
 
 /// Whether a course goes both ways, more than by returning to where a series begins: enough of its values are reached rising and

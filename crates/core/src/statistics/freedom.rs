@@ -30,8 +30,11 @@ pub fn root_mean_square(values: impl Iterator<Item = f64> + Clone, count: f64) -
         false => a.max(v.abs()),
     };
     let largest = values.clone().fold(0.0, larger);
-    if largest == 0.0 || !largest.is_finite() {
+    if !largest.is_finite() {
         return largest;
+    }
+    if largest == 0.0 {
+        return (0.0 / count).sqrt();
     }
     let squares: f64 = values.map(|v| (v / largest).powi(2)).sum();
     largest * (squares / count).sqrt()

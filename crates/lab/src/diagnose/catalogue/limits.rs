@@ -272,18 +272,17 @@ fn steps(
 ) -> Vec<Variation> {
     /// More are not scanned.
     const MOST: usize = 40;
+    /// More are not tried, of which the best is scanned as well.
+    const MOST_TRIED: usize = 1000;
     let values = map(&levels_of(x), size);
     let x = &map(x, size);
     let levels = levels_of(x);
     let (least, most) = (levels[0], levels[levels.len() - 1]);
     let shown = |x: f64| figure_to(x, LABEL * (most - least));
     let between = |upper: usize| [levels[upper - 1], levels[upper]];
-    let below = |upper: usize| {
-        values
-            .iter()
-            .filter(|value| **value < levels[upper])
-            .count()
-    };
+    let mut ascending = values.clone();
+    ascending.sort_by(f64::total_cmp);
+    let below = |upper: usize| ascending.partition_point(|value| *value < levels[upper]);
     let parts = |upper: &usize| below(*upper).min(values.len() - below(*upper)) > 1;
     let of_one_sign = |upper: &usize| between(*upper)[0] > 0.0 || between(*upper)[1] < 0.0;
     let gaps = (1..levels.len()).filter(|upper| parts(upper) && of_one_sign(upper));
@@ -302,8 +301,12 @@ fn steps(
     };
     let on = |upper: &usize| Term::new(node, step(*upper));
     let stride = gaps.len().div_ceil(MOST).max(1);
-    let best = (stride > 1).then(|| best(fitted, &mut gaps.iter().map(on)));
-    let best = best.flatten().filter(|at| at % stride > 0);
+    // Each takes the time of a pass through all rows.
+    let closer = gaps.len().div_ceil(MOST_TRIED);
+    let tried = gaps.iter().step_by(closer.max(1)).map(on);
+    let best = (stride > 1).then(|| best(fitted, &mut { tried }));
+    let best = best.flatten().map(|at| at * closer);
+    let best = best.filter(|at| at % stride > 0);
     let scanned = (0..gaps.len()).step_by(stride).chain(best);
     let scanned: Vec<usize> = scanned.map(|at| gaps[at]).collect();
     let terms: Vec<Term> = scanned.iter().map(on).collect();

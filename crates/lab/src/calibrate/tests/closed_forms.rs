@@ -364,8 +364,8 @@ file = "run.csv"
     let inverse = rows.tr_mul(&rows).try_inverse().expect("full rank");
     let u = |place: usize| 0.1 * inverse[(place, place)].sqrt();
     near(c[0].u, k * k / 9.8 * u(0), 1e-6);
-    for axis in 1..4 {
-        near(c[axis].u, u(axis), 1e-6);
+    for (axis, found) in c.iter().enumerate().skip(1) {
+        near(found.u, u(axis), 1e-6);
     }
 }
 

@@ -20,8 +20,9 @@ pub struct Apart {
     pub p_value: f64,
 }
 
-/// How improbable a residual must be.
-const RARE: f64 = 1e-3;
+/// How improbable it must be that noise alone makes a point stand out: by its residual, at the end of a range, or in exchange for
+/// another. Of all points of a response together.
+pub(super) const RARE: f64 = 1e-3;
 
 /// Fewer degrees of freedom tell nothing.
 const LEAST_DOF: f64 = 3.0;

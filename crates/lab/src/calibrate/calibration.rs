@@ -226,7 +226,7 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
-    let limits = limits(&stack, &solution, &gain, &scatters, &u);
+    let limits = limits(&stack, &solution, &scatters, &u);
     let residuals = residuals(&stack, &solution, &gain, &scatters, &u);
     let figures = figures(campaign, &solution.parameters, causes);
     let explained = !swapped.is_empty() || !limits.is_empty();

@@ -42,6 +42,12 @@ impl Gain {
         parts.with_results(stack.campaign, &solution.parameters)
     }
 
+    /// ∂fitted value/∂observed value, row by row: the hat matrix, rows × rows, at these values of the parameters.
+    pub fn projector(&self, stack: &Stack<'_>, parameters: &[f64]) -> DMatrix<f64> {
+        let ones = vec![1.0; stack.rows.len()];
+        stack.jacobian(parameters, &ones) * self.by_observed.rows(0, parameters.len())
+    }
+
     /// The derivatives of the estimator of the equations linearised at `parameters`, for rows of these
     /// standard uncertainties.
     pub fn linear(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Option<Gain> {

@@ -2,12 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::gain::Gain;
+use super::apart::RARE;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
 use crate::experiment::Words;
 use crate::recording::resolution::resolution;
-use gumption_core::least_squares::Solution;
+use gumption_core::least_squares::{Solution, pseudo_inverse};
 use gumption_core::special::student_t_sf;
 
 /// A value at which readings of a response stay, although its equation says that they differ.
@@ -22,8 +22,8 @@ pub struct Limit {
     pub points: Vec<Words>,
 }
 
-/// How improbable it must be that scatter makes readings alike.
-const RARE: f64 = 1e-3;
+/// Directions that the rows, in units of their noise, stretch no more are rounding.
+const FLAT: f64 = 1e-12;
 
 /// Extreme values that a response takes in points where its equation, fitted to all other readings, has different ones: by the t test
 /// of the two that are furthest apart, for any two of them at either end (Bonferroni). Readings whose values are within one step
@@ -31,14 +31,9 @@ const RARE: f64 = 1e-3;
 pub(super) fn limits(
     stack: &Stack<'_>,
     solution: &Solution,
-    gain: &Gain,
     scatters: &Scatters,
     u: &[f64],
 ) -> Vec<Limit> {
-    let parameters = solution.parameters.len();
-    let ones = vec![1.0; stack.rows.len()];
-    let projector =
-        stack.jacobian(&solution.parameters, &ones) * gain.by_observed.rows(0, parameters);
     let mut found = Vec::new();
     for (response, scatter) in scatters.responses.iter().enumerate() {
         let rows = stack.rows_of(response);
@@ -51,9 +46,8 @@ pub(super) fn limits(
         for value in [least, most] {
             let at_end = |row: &&usize| stack.observed[**row] == value;
             let there: Vec<usize> = rows.iter().filter(at_end).copied().collect();
-            let residuals = &solution.residuals;
-            let others = Others::of(&rows, &there, residuals, &projector, u, scatter.dof);
-            let is_limit = others.is_some_and(|others| others.tell_apart(step) < RARE / 2.0);
+            let others = Others::of(stack, solution, u, [&rows, &there], scatter.dof);
+            let is_limit = others.is_some_and(|others| others.by_chance(step) < RARE / 2.0);
             if least < most && is_limit {
                 found.push(Limit {
                     response: scatter.response.clone(),
@@ -69,8 +63,12 @@ pub(super) fn limits(
 /// What the readings but those at one end let expect of these.
 struct Others {
     /// The readings less what is expected of them.
-    residuals: DVector<f64>,
-    /// Covariance of these, in units of the variance of a reading of unit weight.
+    residuals: Vec<f64>,
+    /// Slopes of what is expected by the parameters, readings × parameters, in units of the standard uncertainty of each.
+    slopes: DMatrix<f64>,
+    /// Standard uncertainty with which each was weighted.
+    u: Vec<f64>,
+    /// Covariance matrix of the parameters, in units of the variance of a reading of unit weight.
     covariance: DMatrix<f64>,
     /// Standard deviation of one of unit weight.
     s: f64,
@@ -79,54 +77,60 @@ struct Others {
 }
 
 impl Others {
-    /// From the fit to all: (I − H)⁻¹ r are the residuals of rows against a fit without them, with covariance
-    /// (I − H)⁻¹ u² (Cook and Weisberg, Residuals and Influence in Regression, 1982, 2.2). Nothing where the others do not
-    /// determine the equation or tell no scatter.
+    /// By a fit to the others, one step from that to all. Nothing where they do not determine the parameters or tell no scatter.
     fn of(
-        rows: &[usize],
-        there: &[usize],
-        residuals: &[f64],
-        projector: &DMatrix<f64>,
+        stack: &Stack<'_>,
+        solution: &Solution,
         u: &[f64],
+        [rows, there]: [&[usize]; 2],
         dof: f64,
     ) -> Option<Others> {
-        let count = there.len();
-        let dof = dof - count as f64;
-        if count < 2 || dof.is_nan() || dof <= 0.0 {
+        let dof = dof - there.len() as f64;
+        if there.len() < 2 || solution.parameters.is_empty() || dof.is_nan() || dof <= 0.0 {
             return None;
         }
-        let left = DMatrix::from_fn(count, count, |i, j| {
-            f64::from(u8::from(i == j)) - projector[(there[i], there[j])]
-        });
-        let inverse = left.try_inverse()?;
-        let own = &inverse * DVector::from_fn(count, |i, _| residuals[there[i]]);
-        let of_others = rows.iter().filter(|row| !there.contains(row)).map(|row| {
-            let moved = there.iter().zip(&own);
-            let moved: f64 = moved.map(|(at, own)| projector[(*row, *at)] * own).sum();
-            ((residuals[*row] + moved) / u[*row]).powi(2)
-        });
-        let squares: f64 = of_others.sum();
+        let all = stack.jacobian(&solution.parameters, u);
+        let (mut others, mut left) = (all.clone(), DVector::from_column_slice(&solution.residuals));
+        left.component_div_assign(&DVector::from_column_slice(u));
+        let residuals = left.clone();
+        for row in there {
+            others.row_mut(*row).fill(0.0);
+            left[*row] = 0.0;
+        }
+        let inverse = pseudo_inverse(others.clone(), FLAT)?;
+        // Less one for each direction that they leave open.
+        let determined = (&inverse * &others).trace();
+        if determined < others.ncols() as f64 - 0.5 {
+            return None;
+        }
+        let change = &inverse * left;
+        let of_row = |row: usize| residuals[row] - all.row(row).transpose().dot(&change);
+        let own = rows.iter().filter(|row| !there.contains(row));
+        let squares: f64 = own.map(|row| of_row(*row).powi(2)).sum();
         Some(Others {
-            residuals: own,
-            covariance: DMatrix::from_fn(count, count, |i, j| {
-                inverse[(i, j)] * u[there[j]].powi(2)
-            }),
+            residuals: there.iter().map(|row| of_row(*row) * u[*row]).collect(),
+            slopes: all.select_rows(there),
+            u: there.iter().map(|row| u[*row]).collect(),
+            covariance: &inverse * inverse.transpose(),
             s: (squares / dof).sqrt(),
             dof,
         })
     }
 
     /// The probability that the readings furthest apart by their equation are alike by scatter beyond the digits, for any two.
-    fn tell_apart(&self, step: f64) -> f64 {
-        let (low, high) = (self.residuals.imin(), self.residuals.imax());
-        let beyond = self.residuals[high] - self.residuals[low] - step;
+    fn by_chance(&self, step: f64) -> f64 {
+        let residuals = DVector::from_column_slice(&self.residuals);
+        let (low, high) = (residuals.imin(), residuals.imax());
+        let beyond = residuals[high] - residuals[low] - step;
         if beyond.is_nan() || beyond <= 0.0 {
             return 1.0;
         }
-        let v = &self.covariance;
-        let variance = v[(low, low)] + v[(high, high)] - v[(low, high)] - v[(high, low)];
-        let t = beyond / (self.s * variance.max(0.0).sqrt());
-        let pairs = self.residuals.len() * (self.residuals.len() - 1) / 2;
+        let slope = |at: usize| self.slopes.row(at) * self.u[at];
+        let apart = (slope(high) - slope(low)).transpose();
+        let of_fit = apart.dot(&(&self.covariance * &apart));
+        let variance = of_fit + self.u[low].powi(2) + self.u[high].powi(2);
+        let t = beyond / (self.s * variance.sqrt());
+        let pairs = residuals.len() * (residuals.len() - 1) / 2;
         (pairs as f64 * 2.0 * student_t_sf(t, self.dof)).min(1.0)
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::apart::RARE;
 use super::campaign::Campaign;
 use super::gain::Gain;
 use super::scatter::Scatters;
@@ -13,11 +14,8 @@ use gumption_core::special::ln_gamma;
 /// Larger experiments are not searched: their pairs take too much time.
 const MOST_POINTS: usize = 100;
 
-/// The probability that noise makes any of the exchanges bring the residuals down as far as the one that is told.
-const RARE: f64 = 1e-3;
-
-/// The probability with which the best exchange leaves that much less than another one that is the true one, from which on the
-/// other one is as good.
+/// An exchange is told beside the best one where, were it the true one, noise would make the best one look so much better with this
+/// probability at least.
 const AS_GOOD: f64 = 0.05;
 
 /// Less than this part of a sum of squares is rounding.
@@ -35,10 +33,7 @@ pub(super) fn swapped(
     if points > MOST_POINTS {
         return Vec::new();
     }
-    let ones = vec![1.0; stack.rows.len()];
-    let jacobian = stack.jacobian(&solution.parameters, &ones);
-    let parameters = solution.parameters.len();
-    let projector = &jacobian * gain.by_observed.rows(0, parameters);
+    let projector = gain.projector(stack, &solution.parameters);
     let observed = squares(stack, &stack.observed);
     let mut before = squares(stack, &solution.residuals);
     for (before, observed) in before.iter_mut().zip(observed) {

@@ -73,6 +73,16 @@ impl<'f> Candidates<'f> {
         self.impossible.extend(impossible);
     }
 
+    /// Leaves out atoms.
+    pub(super) fn leave_out_atoms(&mut self, atoms: &[usize]) {
+        let mut numbers = 0..;
+        self.atoms.retain(|_| {
+            numbers
+                .next()
+                .is_some_and(|number| !atoms.contains(&number))
+        });
+    }
+
     /// Lets effects act where nothing bounds their sizes, if the model is one of deviations; whether any acted elsewhere before.
     pub(super) fn free(&mut self) -> bool {
         let fitted = &self.fitted;

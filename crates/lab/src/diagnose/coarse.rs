@@ -141,7 +141,7 @@ mod tests {
     use gumption_gum::budget::Files;
 
     use super::super::case::Purpose;
-    use super::super::catalogue::{FittedModel, Modifier, Node, Term, modifiers::late};
+    use super::super::catalogue::{FittedModel, Modifier, Node, Term, course::late};
     use super::super::settled;
     use super::*;
 

@@ -1,6 +1,7 @@
 //! Sizes that an effect cannot have: a reversal that is not complete, a change of the scale that leaves nothing of the response, a
 //! shift that is larger than readings can differ; in a model of deviations, an error of a column beyond all of its
-//! values, which is one of the output.
+//! values, which is one of the output. A delay is one number: a course of another time, in proportion to which the output lacks less
+//! or more than it would by being late, is no delay but a mixture.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +11,11 @@ use super::candidates::Candidates;
 use super::catalogue::deviations::Deviations;
 use super::catalogue::modifiers::{known, largest, line_through, map2, range};
 use super::catalogue::{FittedModel, Modifier, Node, Term, Variation};
-use super::confirm::along;
-use super::evidence::{Alternative, Examination};
+use super::confirm::{along, degrees};
+use super::design::Design;
+use super::evidence::{self, Alternative, Examination};
 use super::noise::Claimed;
+use gumption_core::special::student_t_upper_quantile;
 
 /// Candidates that are seen with a size which they cannot have: something else is there.
 pub(super) fn missized(
@@ -49,6 +52,77 @@ pub(super) fn missized(
     };
     let named = examination.slots.iter().flat_map(|slot| &slot.named);
     named.filter(wrong).map(|named| named.candidate).collect()
+}
+
+/// Atoms that say a size by their form and are seen with another one, where the adopted one of their candidate is: by more than the
+/// values that were tried lie apart and than the noise makes of it with the probability `alpha`.
+pub(super) fn of_another_size(
+    candidates: &Candidates<'_>,
+    examination: &Examination,
+    claimed: &Claimed,
+    alpha: f64,
+) -> Vec<usize> {
+    let says = |atom: usize| candidates.variation(atom).shape.as_ref()?.size;
+    let found = examination.fitted.as_ref();
+    let Some(found) = found.filter(|found| found.atoms.iter().any(|atom| says(*atom).is_some()))
+    else {
+        return Vec::new();
+    };
+    let Ok(Some((extended, fit))) = candidates.refitted(found, claimed) else {
+        return Vec::new();
+    };
+    let design = Design::new(&extended.case);
+    let dof = match claimed.is_estimated() {
+        true => degrees(&design),
+        false => claimed.dof,
+    };
+    let factor = student_t_upper_quantile(0.5 * alpha, dof);
+    let columns = |atom: &usize| candidates.variation(*atom).columns(&candidates.fitted);
+    let sized = found.atoms.iter().enumerate();
+    let sized = sized.filter(|(_, atom)| says(**atom).is_some());
+    let wrong = sized.flat_map(|(effect, adopted)| {
+        let others = found.atoms.iter().filter(|other| *other != adopted);
+        let beside: Vec<DMatrix<f64>> = others.map(columns).collect();
+        let linear = |atom: usize| size_beside(candidates, atom, &beside, claimed);
+        let mut own = extended.additions.iter().filter(|one| one.effect == effect);
+        let unknown = own.next().and_then(|one| design.named(&one.parameter));
+        // What the parameters become beside the effect changes what its size says, in all of its forms alike.
+        let ratio = unknown.map_or(1.0, |unknown| fit.unknowns[unknown] / linear(*adopted).0);
+        let cell = candidates.atoms[*adopted].candidate;
+        let all =
+            (0..candidates.atoms.len()).filter(|atom| candidates.atoms[*atom].candidate == cell);
+        let all: Vec<(usize, f64)> = all.filter_map(|atom| Some((atom, says(atom)?))).collect();
+        let is_another = |(atom, size): &(usize, f64)| {
+            let (seen, u) = linear(*atom);
+            let apart = all.iter().map(|(_, other)| (other - size).abs());
+            let apart = apart
+                .filter(|apart| *apart > 0.0)
+                .reduce(f64::min)
+                .unwrap_or(0.0);
+            (ratio * seen - size).abs() > apart + factor * (ratio * u).abs()
+        };
+        let is_mixture = all.iter().any(|one| one.0 == *adopted && is_another(one));
+        let atoms = all.iter().filter(|one| is_mixture && is_another(one));
+        atoms.map(|(atom, _)| *atom).collect::<Vec<usize>>()
+    });
+    wrong.collect()
+}
+
+/// The first size of an atom beside effects, with its standard uncertainty by the noise.
+fn size_beside(
+    candidates: &Candidates<'_>,
+    atom: usize,
+    beside: &[DMatrix<f64>],
+    claimed: &Claimed,
+) -> (f64, f64) {
+    let fit = candidates.fitted.fit;
+    let own = candidates.variation(atom).columns(&candidates.fitted);
+    let all = [&own, &fit.jacobian].into_iter().chain(beside);
+    let columns: Vec<_> = all.flat_map(DMatrix::column_iter).collect();
+    let columns = DMatrix::from_columns(&columns).map(known);
+    let gain = evidence::inverse(&evidence::over_noise(&columns, &claimed.u));
+    let sizes = &gain * fit.residuals.component_div(&claimed.u);
+    (sizes[0], gain.row(0).norm())
 }
 
 /// Whether what an effect follows reverses of itself, and is no quantity of the model: a product of the two, such as the force on what

@@ -1,7 +1,8 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
+use super::course::Course;
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{Course, figure, grid, in_unit, map};
+use super::modifiers::{figure, grid, in_unit, map};
 use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
@@ -238,7 +239,7 @@ pub(super) fn course(
     x: &[f64],
     late: &dyn Fn(Course, f64) -> Term,
 ) -> Course {
-    let possible = Course::possible(x);
+    let possible = Course::possible(&fitted.clock.values, x);
     if possible.len() == 1 {
         return possible[0];
     }

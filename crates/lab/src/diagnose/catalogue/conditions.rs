@@ -2,11 +2,10 @@
 //! squared, as a rate, inversely, and together.
 
 use super::building::{HIGHER, decay, form, on_node, on_output, pair, time_constants, timed};
+use super::course::late;
 use super::exponentials;
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{
-    centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
-};
+use super::modifiers::{centred, correlation, figure, five_digits, levels_of, map, map2, range};
 use super::powers::zero_near;
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};

@@ -16,19 +16,31 @@ pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
 pub fn smoothly_delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
     in_each(t, |rows| {
         let (t, x) = (&t[rows.clone()], &x[rows]);
-        let slopes = spline(t, x);
+        let bends = steeper(t, x);
         earlier(t, x, delay, |above, part| {
             let line = between(x, above, part);
-            let Some(slopes) = slopes.as_ref().filter(|_| (0.0..=1.0).contains(&part)) else {
+            let Some([first, last]) = bends.get(above - 1).filter(|_| (0.0..=1.0).contains(&part))
+            else {
                 return line;
             };
             // Hermite's cubic, as what it adds to the line.
-            let [from, to] = [above - 1, above];
-            let rise = x[to] - x[from];
-            let steeper = [from, to].map(|row| slopes[row] * (t[to] - t[from]) - rise);
-            line + part * (1.0 - part) * ((1.0 - part) * steeper[0] - part * steeper[1])
+            line + part * (1.0 - part) * ((1.0 - part) * first - part * last)
         })
     })
+}
+
+/// By how much the natural cubic spline through rows is steeper than the straight line at both ends of each interval, times the
+/// interval; nothing where rows have the same time.
+pub fn steeper(t: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
+    let Some(slopes) = spline(t, x) else {
+        return Vec::new();
+    };
+    let intervals = 0..x.len() - 1;
+    let of = |row: usize| {
+        let (step, rise) = (t[row + 1] - t[row], x[row + 1] - x[row]);
+        [slopes[row], slopes[row + 1]].map(|slope| slope * step - rise)
+    };
+    intervals.map(of).collect()
 }
 
 /// Whether a course without corners is nearer to the rows than straight lines, each by its neighbours: a row is to the next but one as

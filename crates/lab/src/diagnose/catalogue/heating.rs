@@ -1,9 +1,10 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
 use super::building::{self, course, scoped, time_constants_from, timed};
+use super::course::Course;
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::signal;
-use super::modifiers::{Course, largest, map, range};
+use super::modifiers::{largest, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 

@@ -7,12 +7,13 @@
 use std::collections::BTreeSet;
 
 use super::building::{form, on_output, plain, scoped, time_constants, timed};
+use super::course::late;
 use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    amount, correlation, creeps, crosses_zero, five_digits, in_each, largest, late, map, map2,
-    mean_of, play_from, range, rate,
+    amount, correlation, creeps, crosses_zero, five_digits, in_each, largest, map, map2, mean_of,
+    play_from, range, rate,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;

@@ -14,7 +14,8 @@
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history`, `ringing`, `slewing` | what a stimulus does otherwise than declared |
-//! | `delays`, `earlier` | an output that follows what a column was or will be; what it was between the rows |
+//! | `course`, `earlier` | how columns move between the rows, and what lags behind; what they were a time before |
+//! | `delays` | an output that follows what a column was or will be |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `norm` | models that are the length of a vector of readings |
@@ -39,6 +40,7 @@ mod bits;
 mod building;
 mod by_label;
 mod conditions;
+pub(super) mod course;
 mod delays;
 pub(super) mod deviations;
 mod earlier;

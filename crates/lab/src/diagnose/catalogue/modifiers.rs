@@ -26,86 +26,6 @@ pub fn mean(x: &[f64]) -> f64 {
     x.iter().sum::<f64>() / x.len().max(1) as f64
 }
 
-/// First-order lag of a piecewise linear course: what a body with time constant `tau` has of `x`. It
-/// begins in balance, and anew where the time goes backwards.
-fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
-    let mut out = Vec::with_capacity(x.len());
-    for row in 0..x.len() {
-        let step = if row == 0 { -1.0 } else { t[row] - t[row - 1] };
-        if step < 0.0 {
-            out.push(x[row]);
-            continue;
-        }
-        let a = step / tau;
-        if a < 1e-12 {
-            out.push(out[row - 1]);
-            continue;
-        }
-        // Exact for a straight line between the two rows.
-        let decay = libm::exp(-a);
-        let mean = (1.0 - decay) / a;
-        out.push(decay * out[row - 1] + (mean - decay) * x[row - 1] + (1.0 - mean) * x[row]);
-    }
-    out
-}
-
-/// First-order lag of a course that moves from dwell to dwell: each value is taken on at once, and held. It
-/// begins in balance. Where `came` says from which value a row was reached, and how long before, the course
-/// was there since the row before.
-fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
-    let mut out: Vec<f64> = Vec::with_capacity(x.len());
-    let towards = |value: f64, before: f64, time: f64| {
-        value + (before - value) * libm::exp(-time.max(0.0) / tau)
-    };
-    for row in 0..x.len() {
-        let before = out.last().copied();
-        let gap = if row == 0 { 0.0 } else { t[row] - t[row - 1] };
-        out.push(match (came.get(row).copied().flatten(), before) {
-            (Some((from, since)), Some(before)) => {
-                towards(x[row], towards(from, before, gap - since), since)
-            }
-            (Some((from, since)), None) => towards(x[row], from, since),
-            (None, Some(before)) if gap >= 0.0 => towards(x[row], before, gap),
-            (None, _) => x[row],
-        });
-    }
-    out
-}
-
-/// How what is recorded row by row moves between the rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
-    /// Along the straight line.
-    Steady,
-    /// At once, to the next value, where it stays.
-    Dwelling,
-}
-
-impl Course {
-    /// What may be, the more likely first. Steps of a good part of the range are from set point to set point. So may small
-    /// ones be where most rows have a value that others have too: a ramp in round numbers looks like a list of set points.
-    pub fn possible(x: &[f64]) -> &'static [Course] {
-        match (creeps(x), 2 * levels_of(x).len() <= x.len()) {
-            (false, _) => &[Course::Dwelling],
-            (true, false) => &[Course::Steady],
-            (true, true) => &[Course::Steady, Course::Dwelling],
-        }
-    }
-
-    /// First-order lag behind it; `came` as in [`held_lag`].
-    pub fn late(self, t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
-        match self {
-            Course::Steady => lag(t, x, tau),
-            Course::Dwelling => held_lag(t, x, came, tau),
-        }
-    }
-}
-
-/// First-order lag behind the likelier course.
-pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
-    Course::possible(x)[0].late(t, x, came, tau)
-}
-
 /// Rows in succession that belong together, each to the one before it; no more than so many.
 pub fn successive(
     rows: usize,
@@ -377,39 +297,6 @@ pub fn crosses_zero(x: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn set_points_in_small_steps_may_be_a_ramp_and_a_ramp_of_measured_values_is_no_list_of_set_points()
-     {
-        let list: Vec<f64> = (0..40).map(|row| f64::from(row % 10)).collect();
-        assert_eq!(Course::possible(&list), [Course::Steady, Course::Dwelling]);
-        let ramp: Vec<f64> = (0..40)
-            .map(|row| f64::from(row) + 1e-3 * libm::sin(f64::from(row)))
-            .collect();
-        assert_eq!(Course::possible(&ramp), [Course::Steady]);
-        assert_eq!(
-            Course::possible(&[0.0, 5.0, 10.0, 5.0, 0.0]),
-            [Course::Dwelling]
-        );
-    }
-
-    #[test]
-    fn a_ramp_is_late_by_the_time_constant() {
-        let t: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
-        let lagged = lag(&t, &t, 2.0);
-        assert!((lagged[399] - (t[399] - 2.0)).abs() < 1e-6);
-    }
-
-    #[test]
-    fn a_step_that_is_held_decays() {
-        let lagged = held_lag(&[0.0, 1.0, 3.0], &[0.0, 1.0, 1.0], &[], 2.0);
-        assert!((lagged[1] - (1.0 - libm::exp(-0.5))).abs() < 1e-12);
-        assert!((lagged[2] - (1.0 - libm::exp(-1.5))).abs() < 1e-12);
-        // The first value was reached from 3, one unit of time before.
-        let came = held_lag(&[0.0, 1.0], &[2.0, 2.0], &[Some((3.0, 1.0)), None], 2.0);
-        assert!((came[0] - (2.0 + libm::exp(-0.5))).abs() < 1e-12);
-        assert!((came[1] - (2.0 + libm::exp(-1.0))).abs() < 1e-12);
-    }
 
     #[test]
     fn play_follows_behind_the_gap() {

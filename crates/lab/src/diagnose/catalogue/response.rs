@@ -5,13 +5,12 @@ use super::building::{
     cell, course, decay, form, on_node, on_output, pair, time_constants_of_input, timed,
 };
 use super::conditions::{inverse, on_offset, spreads};
+use super::course::Course;
 use super::delays;
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{
-    Course, creeps, figure, five_digits, largest, levels_of, map, map2, mean, range,
-};
+use super::modifiers::{creeps, figure, five_digits, largest, levels_of, map, map2, mean, range};
 use super::norm::Norm;
-use super::sharp::{beats, best_pair, sharpened, size_of};
+use super::sharp::{beats, best_pair, sharpened, sharpened_together, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
@@ -298,15 +297,15 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let since = map(t, |t| t - began);
-    let unbalanced = scales.iter().map(|tau| {
-        let start = decay(
-            &since,
-            &fitted.time_less(began),
-            *tau,
-            &fitted.duration(*tau),
-        );
-        let start = Term::new(node, start);
-        let mut form = timed(fitted, &[*tau], vec![lacks(*tau), start]);
+    let with_start = |tau: f64| {
+        let shown = fitted.duration(tau);
+        let start = decay(&since, &fitted.time_less(began), tau, &shown);
+        vec![lacks(tau), Term::new(node, start)]
+    };
+    let starting = sharpened_together(fitted, time_constants_of_input(fitted), &with_start);
+    let starting = fitted.finer.times(starting).into_iter();
+    let unbalanced = starting.map(|tau| {
+        let mut form = timed(fitted, &[tau], with_start(tau));
         form.label += ", not in balance at the start";
         form
     });

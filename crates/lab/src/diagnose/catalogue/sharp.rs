@@ -31,6 +31,9 @@ impl Absorbed {
 
     /// Sum of squares that regressors together take away from the residuals.
     pub(super) fn power_of_all(&self, columns: &DMatrix<f64>) -> f64 {
+        if let [column] = columns.column_iter().collect::<Vec<_>>().as_slice() {
+            return self.power(&column.into_owned());
+        }
         let rests: Vec<DVector<f64>> = columns
             .column_iter()
             .map(|column| self.rest(&column.into_owned()))
@@ -61,8 +64,17 @@ impl Absorbed {
 /// Moves the value next to the best one onto it, where an effect of this kind shows at all.
 pub(super) fn sharpened(
     fitted: &FittedModel<'_>,
-    mut grid: Vec<f64>,
+    grid: Vec<f64>,
     term: &dyn Fn(f64) -> Term,
+) -> Vec<f64> {
+    sharpened_together(fitted, grid, &|value| vec![term(value)])
+}
+
+/// The same of several terms, each with a size of its own.
+pub(super) fn sharpened_together(
+    fitted: &FittedModel<'_>,
+    mut grid: Vec<f64>,
+    terms: &dyn Fn(f64) -> Vec<Term>,
 ) -> Vec<f64> {
     if grid.len() < 2 || grid.iter().any(|value| *value <= 0.0) {
         return grid;
@@ -70,7 +82,13 @@ pub(super) fn sharpened(
     let Some(residuals) = residuals(fitted) else {
         return grid;
     };
-    let power = |value: f64| residuals.power(&fitted.column(&term(value)));
+    let power = |value: f64| {
+        let columns: Vec<DVector<f64>> = terms(value)
+            .iter()
+            .map(|term| fitted.column(term))
+            .collect();
+        residuals.power_of_all(&DMatrix::from_columns(&columns))
+    };
     let powers: Vec<f64> = grid.iter().copied().map(power).collect();
     let best = largest_at(&powers);
     if !residuals.shows(powers[best]) {

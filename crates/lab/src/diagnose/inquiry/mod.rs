@@ -400,7 +400,7 @@ impl Answer {
 }
 
 /// Asks for every candidate. Effects that are seen with a size which they cannot have are something else: without them, again, or
-/// where deviations bound no size.
+/// where deviations bound no size; and so are forms of another size than they say.
 fn ask(
     candidates: &mut Candidates<'_>,
     claimed: Claimed,
@@ -412,14 +412,16 @@ fn ask(
         let question = candidates.question(&baseline, settings);
         let examination = evidence::examine(&question, progress)?;
         let missized = possible::missized(candidates, &examination, &claimed);
-        if missized.is_empty() {
+        let others = possible::of_another_size(candidates, &examination, &claimed, settings.alpha);
+        if missized.is_empty() && others.is_empty() {
             return Ok(Answer {
                 claimed,
                 baseline,
                 examination,
             });
         }
-        if !candidates.free() {
+        candidates.leave_out_atoms(&others);
+        if !missized.is_empty() && !candidates.free() {
             candidates.leave_out(&missized);
         }
     }

@@ -6,30 +6,30 @@ use nalgebra::{DMatrix, Dyn, SVD, SymmetricEigen};
 /// Two or three steps are taken for each singular value or eigenvalue.
 const STEPS_EACH: usize = 100;
 
-/// A = UΣVᵀ, with both factors; `None` where A has a number that is not finite.
+/// A = UΣVᵀ, with both factors; `None` where A is empty or has a number that is not finite.
 pub fn singular(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
     let steps = steps(&matrix)?;
     SVD::try_new(matrix, true, true, 5.0 * f64::EPSILON, steps)
 }
 
-/// The inverse of A where it has one, without directions that it stretches no more than `flat`; `None` where A has a number that
-/// is not finite.
+/// The inverse of A where it has one, without directions that it stretches no more than `flat`; `None` where A is empty or has a
+/// number that is not finite.
 pub fn pseudo_inverse(matrix: DMatrix<f64>, flat: f64) -> Option<DMatrix<f64>> {
     let steps = steps(&matrix)?;
     let found = SVD::try_new_unordered(matrix, true, true, 5.0 * f64::EPSILON, steps)?;
     found.pseudo_inverse(flat).ok()
 }
 
-/// Eigenvalues and eigenvectors of a symmetric matrix; `None` where it has a number that is not finite.
+/// Eigenvalues and eigenvectors of a symmetric matrix; `None` where it is empty or has a number that is not finite.
 pub fn axes(symmetric: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
     let steps = steps(&symmetric)?;
     SymmetricEigen::try_new(symmetric, f64::EPSILON, steps)
 }
 
-/// Steps after which a matrix of finite numbers is given up.
+/// Steps after which a matrix of finite numbers is given up; of an empty one there are none.
 fn steps(matrix: &DMatrix<f64>) -> Option<usize> {
-    let is_finite = matrix.iter().all(|x| x.is_finite());
-    is_finite.then(|| STEPS_EACH * (1 + matrix.nrows().min(matrix.ncols())))
+    let is_usable = !matrix.is_empty() && matrix.iter().all(|x| x.is_finite());
+    is_usable.then(|| STEPS_EACH * (1 + matrix.nrows().min(matrix.ncols())))
 }
 
 #[cfg(test)]

@@ -193,11 +193,11 @@ fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> Inp
             (*index, one),
             &slopes,
             name,
-            &quotient(&one.unit, &doubt.unit),
+            &quotient(&one.unit.difference(), &doubt.unit.difference()),
         );
     }
     let estimate = zeros(cause.effects.ncols());
-    let unit = unit_line(&doubt.unit);
+    let unit = unit_line(&doubt.unit.difference());
     let mut width = width(&doubt.distribution, doubt.u, doubt.dof);
     width += type_line(doubt.evaluation, &width);
     width += &doubt
@@ -232,7 +232,7 @@ fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> InputOfCause 
             .iter()
             .map(|column| factor[(row, *column)])
             .collect();
-        input.act(*place, &slopes, name, &place.1.unit);
+        input.act(*place, &slopes, name, &place.1.unit.difference());
     }
     // Where each error has its own, the coefficients differ by a little; the least promises too much to none.
     let dofs = indices.iter().map(|index| cause.contribution_dof(*index));

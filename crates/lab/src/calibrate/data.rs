@@ -99,7 +99,7 @@ fn recorded(
 }
 
 /// The declared columns of a role.
-fn of_role(
+pub(super) fn of_role(
     columns: &Slot<Named<Short<ColumnTable>>>,
     wanted: RoleWord,
 ) -> impl Iterator<Item = &str> {
@@ -142,11 +142,12 @@ fn requests(
     let rows = checker.purpose != Purpose::Calibrate || !table.holds_samples();
     let of_rows = of_role(&checker.source.table.columns, RoleWord::Uncertainty);
     let of_rows = of_rows.filter(|_| rows);
+    let counts = of_role(&checker.source.table.columns, RoleWord::Count);
     let wanted = named
         .map(String::as_str)
         .chain(conditions(checker))
         .chain(steps);
-    let wanted = wanted.chain(replicates).chain(of_rows);
+    let wanted = wanted.chain(replicates).chain(of_rows).chain(counts);
     let mut requests: Vec<Request> = Vec::new();
     for name in wanted {
         let column = columns.iter().find(|column| column.name == name);

@@ -18,6 +18,7 @@
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
+//! | `errors`, `agreement` | what stated errors do to the readings; whether residuals are as large as they let expect |
 //! | `identify` | rank, condition, aliases |
 //! | `trouble` | why an experiment gives no coefficients |
 //! | `swaps`, `signs`, `apart`, `limits`, `pattern` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
@@ -32,6 +33,7 @@
 //! Σ_i ∂coefficient/∂y_i · ∂f_i/∂e. The sum is over all rows on which *one* error acts, so that common
 //! errors do not average away and correlate the coefficients, and independent ones do average.
 
+mod agreement;
 mod apart;
 mod budget;
 mod calibration;
@@ -43,6 +45,7 @@ mod contrary;
 mod data;
 mod define;
 mod dwells;
+mod errors;
 mod extras;
 mod gain;
 mod identify;
@@ -64,6 +67,7 @@ mod tests;
 mod together;
 mod trouble;
 
+pub use agreement::{Misfit, ScatterTest};
 pub use apart::Apart;
 pub use budget::budget;
 pub use calibration::{Calibration, Figures, PartScatter, calibrate, estimates};
@@ -79,5 +83,5 @@ pub use plan::{Plan, plan};
 pub use points::{PointColumn, PointNames, Points, Reading};
 pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
-pub use scatter::{Misfit, Part, ResponseScatter, ScatterTest};
+pub use scatter::{Part, ResponseScatter};
 pub use trouble::Trouble;

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::data::of_role;
 use super::points::{PointColumn, Points};
 use crate::experiment::at_rest::Headed;
 use crate::experiment::checker::Checker;
+use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::source::entries;
@@ -76,8 +78,11 @@ pub(super) fn add(
                 .collect()
         }
     };
+    let counted = counted(checker, points);
     for ((name, unit), of_row) in outputs.into_iter().zip(found) {
-        let left = points.column(&name).and_then(|read| of_row.left(read));
+        let averaged = points.column(&name).and_then(|read| of_row.left(read));
+        let shares = [averaged, counted.clone()].into_iter().flatten();
+        let left = shares.reduce(|a, b| a.iter().zip(&b).map(|(a, b)| a * b).collect());
         let mut doubt = noise(name, unit, of_row.scatter);
         if let Some(left) = left {
             points.columns.push(PointColumn {
@@ -107,10 +112,15 @@ impl OfRow {
         }
     }
 
+    /// Successive readings that go together show less of the variance, and know it worse, than as many independent ones.
     fn at_rest(rest: &Average) -> OfRow {
         let count = rest.n as f64;
+        let scatter = match rest.effective < count {
+            true => (rest.u * rest.effective.sqrt(), rest.dof),
+            false => (rest.s, count - 1.0),
+        };
         OfRow {
-            scatter: (rest.s, count - 1.0),
+            scatter,
             factor: count / rest.effective,
         }
     }
@@ -126,6 +136,15 @@ impl OfRow {
         let left = read.averages.iter().map(of_point).collect();
         (!read.averages.is_empty()).then_some(left)
     }
+}
+
+/// What is left of the noise of one reading in each point where a column says of how many readings its rows are: 1/√count, of a point
+/// that is an average of rows that of their mean.
+fn counted(checker: &Checker<'_>, points: &Points) -> Option<Vec<f64>> {
+    let name = of_role(&checker.source.table.columns, RoleWord::Count).next()?;
+    let counts = points.column(name)?.values.iter();
+    let left = |count: &f64| 1.0 / count.max(1.0).sqrt();
+    Some(counts.map(left).collect())
 }
 
 /// Whether an error is the noise of an output that `[noise]` tells.

@@ -1,9 +1,10 @@
 //! Residuals that are no scatter. Where they tell the scatter themselves, what the equations leave out makes it larger,
 //! and no χ² shows it: repeated readings that agree better do, and signs that stay.
 
-use super::scatter::{RARE, ResponseScatter, explained_by};
+use super::agreement::RARE;
+use super::errors::{errors, explained};
+use super::scatter::ResponseScatter;
 use super::stack::{Row, Stack};
-use crate::experiment::Scope;
 use gumption_core::least_squares::{Solution, runs, span, without};
 use gumption_core::special::{f_sf, normal_two_sided_quantile};
 use nalgebra::{DMatrix, DVector};
@@ -70,7 +71,8 @@ pub(super) fn patterns(
 ) -> Vec<Pattern> {
     let ones = vec![1.0; stack.rows.len()];
     let jacobian: DMatrix<f64> = stack.jacobian(&solution.parameters, &ones);
-    let explained = explained_by(stack, solution, gain, &jacobian, |_: &Scope| true);
+    let errors = errors(stack, &solution.parameters);
+    let explained = explained(&errors, gain, &jacobian);
     let found = responses.iter().enumerate().filter_map(|(response, own)| {
         let rows = stack.rows_of(response);
         let residuals = Residuals {

@@ -1,16 +1,17 @@
 //! The scatter of the readings: from residuals, from samples, or stated.
 
-use nalgebra::DMatrix;
-
+use super::agreement::{Agreement, Itself, RARE, Rows, ScatterTest};
 use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
-use super::gain::{Gain, levels};
+use super::errors::{OfDoubt, errors, explained};
+use super::gain::Gain;
 use super::noise;
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
-use crate::experiment::{Doubt, Observed, Scope, Target};
+use crate::experiment::{Observed, Scope, Target};
+use crate::recording::Average;
 use gumption_core::least_squares::Solution;
-use gumption_core::special::{chi_squared_sf, f_sf, student_t_score, student_t_two_sided_quantile};
+use gumption_core::special::{f_sf, student_t_two_sided_quantile};
 use gumption_gum::budget::Evaluation;
 
 /// The scatter of each response.
@@ -29,14 +30,13 @@ pub struct ResponseScatter {
     pub readings: usize,
     /// Root of the mean square of the residuals, in the unit of the response.
     pub rms: f64,
-    /// Standard deviation of a reading from the residuals, √(Σr²/ν), in the unit of the response; of one of unit weight where the
-    /// readings have weights. NaN for ν = 0.
+    /// Standard deviation of a reading from the residuals, √(Σr²/ν), in the unit of the response, whatever their weights. NaN for ν = 0.
     pub s: f64,
     /// The standard uncertainty with which each of its rows was weighted, where all were alike; one where they have weights.
     pub(super) unit: f64,
     /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
     pub dof: f64,
-    /// Standard deviation of a reading by itself, in the same units.
+    /// Standard deviation of a reading by itself: in the unit of the response, of one of unit weight where the readings have weights.
     pub own: f64,
     /// Degrees of freedom of `own`.
     pub own_dof: f64,
@@ -44,22 +44,6 @@ pub struct ResponseScatter {
     pub part: Part,
     /// The test against what samples and stated errors of each reading say, where they say anything.
     pub test: Option<ScatterTest>,
-}
-
-/// Whether residuals are as large as the known errors of the readings let expect.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct ScatterTest {
-    /// The residual standard deviation to expect, in the unit of the response.
-    pub expected: f64,
-    /// Σ(r/u)², of a u with finite ν the normal deviation of the same probability in place of r/u.
-    pub chi_squared: f64,
-    /// ν.
-    pub dof: f64,
-    /// The probability of a larger χ²; of F where readings share a u with finite ν.
-    pub p_value: f64,
-    /// What that says of the errors.
-    pub misfit: Option<Misfit>,
 }
 
 /// What of the residuals is taken for the scatter of the readings.
@@ -89,64 +73,60 @@ fn own(total: f64, explained: f64, dof: f64) -> (f64, f64, Part) {
     }
 }
 
-impl ScatterTest {
-    /// None where residuals tell the scatter and no samples do: stated errors are a part of it then, and only residuals that
-    /// are smaller say something of them.
-    fn of(
-        expected: f64,
-        chi_squared: f64,
-        dof: f64,
-        stated_dof: f64,
-        way: Scatter,
-        sampled: bool,
-    ) -> Option<ScatterTest> {
-        let p_value = match stated_dof.is_finite() {
-            true => f_sf(chi_squared / dof, dof, stated_dof),
-            false => chi_squared_sf(chi_squared, dof),
+/// The same where readings share stated errors that the equations do not absorb: the sum of squares beside these, however large each
+/// of them happened to be. `None` without such errors, where they leave nothing, or where they are larger than stated: then all
+/// residuals count.
+fn within(
+    held: &dyn Fn(&[f64]) -> Rows,
+    u: &[f64],
+    errors: &[OfDoubt<'_>],
+) -> Option<(f64, f64, Part)> {
+    let rows = held(u);
+    let beside = rows.beside(errors)?;
+    let (dof, directions) = (beside.dof() as f64, (rows.dof() - beside.dof()) as f64);
+    let s = (beside.sum() / dof).sqrt();
+    if dof == 0.0 || s <= 0.0 {
+        return None;
+    }
+    let scaled: Vec<f64> = u.iter().map(|u| s * u).collect();
+    let between = Agreement::of(&held(&scaled), errors, &[])?.chi_squared - dof;
+    let p_value = f_sf(between / directions, directions, dof);
+    let of_each = errors.iter().filter(|one| !one.is_shared());
+    let stated: f64 = of_each.map(|one| beside.expected(one)).sum();
+    (p_value >= RARE).then(|| own(beside.sum(), stated, dof))
+}
+
+/// What is known of each reading by itself. Samples of one reading show one variance, which those of all dwells tell together, and of
+/// which a dwell of few tells little.
+fn each(stack: &Stack<'_>, errors: &[OfDoubt<'_>], rows: &[usize]) -> Vec<Itself> {
+    let averages = rows.iter().map(|row| average(stack, &stack.rows[*row]));
+    let averages: Vec<Option<&Average>> = averages.collect();
+    let told = averages.iter().flatten().filter(|one| one.dof > 0.0);
+    let (sum, dof) = told.fold((0.0, 0.0), |(sum, dof), one| {
+        let variance = one.u * one.u * one.effective;
+        (sum + one.dof * variance, dof + one.dof)
+    });
+    let of_each = |row: usize| -> f64 {
+        let of_each = errors.iter().filter(|one| !one.is_shared());
+        of_each.map(|one| one.changes[row].powi(2)).sum()
+    };
+    let of_row = |(row, average): (&usize, &Option<&Average>)| {
+        let stated = of_each(*row);
+        let Some(average) = average else {
+            return Itself::certain(stated.sqrt());
         };
-        let misfit = Misfit::of(p_value, way, sampled);
-        let partial = way == Scatter::Residuals && !sampled;
-        (misfit.is_some() || !partial).then_some(ScatterTest {
-            expected,
-            chi_squared,
-            dof,
-            p_value,
-            misfit,
-        })
-    }
-
-    /// χ²/ν, 1 where the residuals are as large as expected.
-    pub fn reduced(&self) -> f64 {
-        self.chi_squared / self.dof
-    }
-}
-
-/// What residuals say of the known errors of their readings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Misfit {
-    /// They are larger than the samples of the dwells let expect, and tell the scatter themselves: something changes
-    /// from dwell to dwell.
-    BetweenDwells,
-    /// They are larger than the errors that make the uncertainties: these are too small.
-    Larger,
-    /// They are smaller than the errors of the readings.
-    Smaller,
-}
-
-/// Probability of a statistic as far out, below which residuals are said to be no scatter of the stated size or order.
-pub(super) const RARE: f64 = 0.005;
-
-impl Misfit {
-    /// From the probability of a larger χ². Where residuals tell the scatter, they may be larger than stated errors.
-    fn of(p_value: f64, way: Scatter, sampled: bool) -> Option<Misfit> {
-        let large = p_value < RARE;
-        match way {
-            Scatter::Residuals if large && sampled => Some(Misfit::BetweenDwells),
-            Scatter::Dwells | Scatter::Stated if large => Some(Misfit::Larger),
-            _ if p_value > 1.0 - RARE => Some(Misfit::Smaller),
-            _ => None,
+        let sampled = average.u * average.u;
+        let (own, pooled) = (stated + sampled, stated + sum / dof / average.effective);
+        if dof == 0.0 || sampled == 0.0 || pooled == 0.0 {
+            return Itself::certain(own.sqrt());
         }
-    }
+        Itself {
+            u: pooled.sqrt(),
+            factor: (pooled / own).sqrt(),
+            dof: average.dof * (own / sampled).powi(2),
+        }
+    };
+    rows.iter().zip(&averages).map(of_row).collect()
 }
 
 impl Campaign {
@@ -213,18 +193,17 @@ fn stated_variance(stack: &Stack<'_>, row: &Row) -> f64 {
         .sum()
 }
 
-/// Of an output whose noise is told by itself, samples show nothing but that.
 fn sampled_variance(stack: &Stack<'_>, row: &Row) -> f64 {
+    average(stack, row).map_or(0.0, |average| average.u * average.u)
+}
+
+/// The samples of which a reading is the average. Of an output whose noise is told by itself, they show nothing but that.
+fn average<'s>(stack: &'s Stack<'_>, row: &Row) -> Option<&'s Average> {
     let doubts = &stack.campaign.experiment.doubts;
-    let of_samples =
-        |(name, _): &(&str, usize)| !doubts.iter().any(|doubt| noise::is_of(doubt, name));
-    let average = reading(stack, row)
-        .filter(of_samples)
-        .and_then(|(name, point)| {
-            let column = stack.campaign.points.column(name)?;
-            column.averages.get(point)?.as_ref()
-        });
-    average.map_or(0.0, |average| average.u * average.u)
+    let (name, point) = reading(stack, row)?;
+    let is_told = doubts.iter().any(|doubt| noise::is_of(doubt, name));
+    let column = stack.campaign.points.column(name).filter(|_| !is_told)?;
+    column.averages.get(point)?.as_ref()
 }
 
 /// The column and the point of a row that was read.
@@ -259,10 +238,12 @@ impl Scatters {
         let jacobian = stack.jacobian(&solution.parameters, &ones);
         let (known, stated) = (known_u(stack), stated_u(stack));
         let parameters = campaign.experiment.parameters.len();
+        let errors = errors(stack, &solution.parameters);
+        let allowed = explained(&errors, gain, &jacobian);
         // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
         // show of it explains nothing of them.
-        let parts = explained_parts(stack, solution, gain, &jacobian, |s| *s != Scope::Common);
-        let explained = sum_of(&parts, stack.rows.len());
+        let of_some = errors.iter().filter(|one| one.doubt.scope != Scope::Common);
+        let by_stated = explained(of_some, gain, &jacobian);
         let mut responses = Vec::new();
         for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
             let rows = stack.rows_of(response);
@@ -297,46 +278,39 @@ impl Scatters {
                     parameters,
                 });
             }
-            let by_stated: f64 = rows
-                .iter()
-                .map(|row| explained[*row] / (u[*row] * u[*row]))
-                .sum();
-            let total = sum(u);
-            let (own, own_dof, part) = own(total, by_stated, dof);
+            let held = |u: &[f64]| Rows::of(stack, &rows, u, (&solution.residuals, &jacobian));
+            let weights: Vec<f64> = rows.iter().map(|row| u[*row]).collect();
+            let within = within(&held, &weights, &errors);
+            let (own, own_dof, part) = within.unwrap_or_else(|| {
+                let by_stated = |row: &usize| by_stated[*row] / (u[*row] * u[*row]);
+                own(sum(u), rows.iter().map(by_stated).sum(), dof)
+            });
             // Beside what is known of parameters, weights that are alike are those of the scatter itself.
             let unit = match (campaign.weights, rows.first()) {
                 (Weights::Equal, Some(row)) => u[*row],
                 _ => 1.0,
             };
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
-            let expected: Vec<Expected> = (rows.iter())
-                .map(|row| {
-                    Expected::of(
-                        stack,
-                        *row,
-                        (known[*row], stated[*row]),
-                        (explained[*row], free(*row)),
-                    )
-                })
-                .collect();
+            let test = || {
+                let each = each(stack, &errors, &rows);
+                let u: Vec<f64> = each.iter().map(|one| one.u).collect();
+                let found = Agreement::of(&held(&u), &errors, &each)?;
+                let sampled_there = |row: usize| sampled_variance(stack, &stack.rows[row]);
+                let square = |row: &usize| allowed[*row] + free(*row) * sampled_there(*row);
+                let squares: f64 = rows.iter().map(square).sum();
+                ScatterTest::of(&found, (squares / dof).sqrt(), way, sampled)
+            };
             responses.push(ResponseScatter {
                 response: quantity.name.clone(),
                 readings: rows.len(),
                 rms: (sum(&ones) / rows.len() as f64).sqrt(),
-                s: unit * (total / dof).sqrt(),
+                s: (sum(&ones) / dof).sqrt(),
                 unit,
                 dof,
                 own: unit * own,
                 own_dof,
                 part,
-                test: (complete && dof > 0.0).then_some(()).and_then(|()| {
-                    let residuals = rows.iter().map(|row| solution.residuals[*row]);
-                    let chi_squared = residuals.zip(&expected).map(|(r, one)| one.square(r)).sum();
-                    let stated_dof = dof_of_stated(&parts, &rows, &expected);
-                    let squares: f64 = expected.iter().map(|one| one.u * one.u).sum();
-                    let u = (squares / rows.len() as f64).sqrt();
-                    ScatterTest::of(u, chi_squared, dof, stated_dof, way, sampled)
-                }),
+                test: (complete && dof > 0.0).then_some(()).and_then(|()| test()),
             });
         }
         Ok(Scatters { way, responses })
@@ -379,150 +353,6 @@ impl Scatters {
         };
         self.responses.iter().enumerate().map(cause).collect()
     }
-}
-
-/// What samples and stated errors let expect of the residual of a row.
-struct Expected {
-    /// Its standard uncertainty, as if it were a reading's own.
-    u: f64,
-    /// Degrees of freedom of `u` that no other row shares: those of its samples (Welch and Satterthwaite).
-    dof: f64,
-    /// 1 less the leverage.
-    free: f64,
-}
-
-impl Expected {
-    /// From what is known of the reading with and without its samples, and the part of its residual that stated errors
-    /// explain beside what the equations leave free of it.
-    fn of(
-        stack: &Stack<'_>,
-        row: usize,
-        (known, stated): (f64, f64),
-        (explained, free): (f64, f64),
-    ) -> Expected {
-        let sampled = known.powi(2) - stated.powi(2);
-        let u = if free > LEAST_FREE {
-            (sampled + explained / free).sqrt()
-        } else {
-            known
-        };
-        let dof = dof_of_samples(stack, row) * (u * u / sampled).powi(2);
-        Expected {
-            u,
-            dof: if dof.is_nan() { f64::INFINITY } else { dof },
-            free,
-        }
-    }
-
-    /// (r/u)². A u from few samples is now too small and now too large: r/u has the tails of t, and counts as the normal
-    /// deviation of the same probability, which leaves the sum the distribution of χ².
-    fn square(&self, residual: f64) -> f64 {
-        let ratio = residual / self.u;
-        if self.dof.is_infinite() || self.free <= LEAST_FREE {
-            return ratio.powi(2);
-        }
-        student_t_score(ratio / self.free.sqrt(), self.dof).powi(2) * self.free
-    }
-}
-
-/// Of a row that the equations leave less free its residual says nothing.
-const LEAST_FREE: f64 = 1e-6;
-
-/// Degrees of freedom of the average of a row; infinite without one.
-fn dof_of_samples(stack: &Stack<'_>, row: usize) -> f64 {
-    let Row::Reading { point, response } = &stack.rows[row] else {
-        return f64::INFINITY;
-    };
-    let Observed::Column(name) = &stack.campaign.experiment.observed[*response] else {
-        return f64::INFINITY;
-    };
-    let column = stack.campaign.points.column(name);
-    let average = column.and_then(|column| column.averages.get(*point)?.as_ref());
-    average.map_or(f64::INFINITY, |average| average.dof)
-}
-
-/// Degrees of freedom of what stated errors let expect of the mean square of the residuals: a u that is stated once for many
-/// readings is one estimate (Welch and Satterthwaite).
-fn dof_of_stated(parts: &[(&Doubt, Vec<f64>)], rows: &[usize], expected: &[Expected]) -> f64 {
-    let total: f64 = expected.iter().map(|one| one.free).sum();
-    let fourth: f64 = (parts.iter())
-        .filter(|(doubt, _)| doubt.dof.is_finite())
-        .map(|(doubt, explained)| {
-            let of_row = |(row, one): (&usize, &Expected)| explained[*row] / (one.u * one.u);
-            let share = rows.iter().zip(expected).map(of_row).sum::<f64>() / total;
-            share * share / doubt.dof
-        })
-        .sum();
-    1.0 / fourth
-}
-
-/// The mean square of each row's residual that the stated errors that count let expect together.
-pub(super) fn explained_by(
-    stack: &Stack<'_>,
-    solution: &Solution,
-    gain: &Gain,
-    jacobian: &DMatrix<f64>,
-    counts: fn(&Scope) -> bool,
-) -> Vec<f64> {
-    let parts = explained_parts(stack, solution, gain, jacobian, counts);
-    sum_of(&parts, stack.rows.len())
-}
-
-fn sum_of(parts: &[(&Doubt, Vec<f64>)], rows: usize) -> Vec<f64> {
-    let of_row = |row: usize| parts.iter().map(|(_, explained)| explained[row]).sum();
-    (0..rows).map(of_row).collect()
-}
-
-/// The mean square of each row's residual that the stated errors let expect, one by one: Σ u²·(d − J·∂β/∂y·d)² over
-/// those of their errors that count, each of which changes the misfits by d.
-fn explained_parts<'a>(
-    stack: &'a Stack<'_>,
-    solution: &Solution,
-    gain: &Gain,
-    jacobian: &DMatrix<f64>,
-    counts: fn(&Scope) -> bool,
-) -> Vec<(&'a Doubt, Vec<f64>)> {
-    let parameters = solution.parameters.len();
-    let mut parts = Vec::new();
-    let points = &stack.campaign.points;
-    let doubts = stack.campaign.experiment.doubts.iter();
-    for doubt in doubts.filter(|doubt| counts(&doubt.scope)) {
-        let mut misfits = vec![0.0; stack.rows.len()];
-        for act in &doubt.acts {
-            let by = stack.misfit_by(&act.on, &solution.parameters);
-            for ((misfit, by), row) in misfits.iter_mut().zip(by).zip(&stack.rows) {
-                let share = match row {
-                    Row::Reading { point, .. } => {
-                        doubt.share(points, *point) * act.share(points, *point)
-                    }
-                    Row::Prior { .. } => 1.0,
-                };
-                *misfit += act.coefficient * share * by;
-            }
-        }
-        // Of each error: the shift of the parameters.
-        let levels = levels(stack, &doubt.scope);
-        let count = levels.iter().max().map_or(0, |last| last + 1);
-        let mut shifts = DMatrix::zeros(parameters, count);
-        for (row, level) in levels.iter().enumerate() {
-            let gain = gain.by_observed.column(row);
-            let mut shift = shifts.column_mut(*level);
-            shift.axpy(misfits[row], &gain.rows(0, parameters), 1.0);
-        }
-        let mut explained = vec![0.0; stack.rows.len()];
-        // Σ (J·s)² over all errors, of which the row's own acts on its misfit as well.
-        let squares = &shifts * shifts.transpose();
-        let u2 = doubt.u * doubt.u;
-        for (row, explained) in explained.iter_mut().enumerate() {
-            let slopes = jacobian.row(row);
-            let by_all = (slopes * &squares).dot(&slopes);
-            let by_own = slopes.transpose().dot(&shifts.column(levels[row]));
-            let left = misfits[row] - by_own;
-            *explained += u2 * ((by_all - by_own * by_own).max(0.0) + left * left);
-        }
-        parts.push((doubt, explained));
-    }
-    parts
 }
 
 /// Every average of samples scatters by itself.

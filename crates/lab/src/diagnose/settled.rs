@@ -1,11 +1,11 @@
 //! A model settled: fitted, with the noise that is claimed or that it leaves.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Origin, Role};
 use super::catalogue::modifiers::largest;
 use super::catalogue::signal;
-use super::design::Design;
+use super::design::{Design, Unknown};
 use super::evidence;
 use super::fit::{self, Fit, NoFit, Weights};
 use super::noise::Claimed;
@@ -110,6 +110,7 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
 /// The noise that a model leaves, where it grows with the reading or differs from label to label.
 pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut claimed = estimated(design, fit);
+    let unknowns = paid_for(design, fit);
     let blocks = design.blocks.len();
     let mut draws = vec![claimed.u.clone(); DRAWS];
     for response in 0..design.case.responses.len() {
@@ -142,7 +143,7 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
             let factors = DVector::from_iterator(blocks, factors).component_mul(scales);
             let u = plain.component_mul(&factors);
             // A perfect fit leaves nothing but the rounding that the plain ones are.
-            match scale(design, &own.component_div(&u)) {
+            match scale(design, unknowns, &own.component_div(&u)) {
                 scale if scale > 0.0 => u * scale,
                 _ => u,
             }
@@ -198,25 +199,53 @@ pub fn plain(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Option<Claime
     uneven.then(|| estimated(design, fit))
 }
 
-/// Root mean square of the residuals of one response, which share the degrees of freedom of all.
-fn scale(design: &Design<'_>, residuals: &DVector<f64>) -> f64 {
+/// Root mean square of the residuals of one response, which share the degrees of freedom of all, beside so many unknowns.
+fn scale(design: &Design<'_>, unknowns: f64, residuals: &DVector<f64>) -> f64 {
     let observations = design.observations() as f64;
-    let freedom = (observations - design.unknowns.len() as f64).max(1.0);
+    let freedom = (observations - unknowns).max(1.0);
     (residuals.norm_squared() / (residuals.len() as f64 * freedom / observations)).sqrt()
+}
+
+/// How many unknowns the residuals pay for: each of which nothing is known beforehand, and of the others what the recording says of
+/// them beside that, which depends on the noise that is left: the trace of the hat matrix.
+fn paid_for(design: &Design<'_>, fit: &Fit) -> f64 {
+    /// Each divides what is missing by the number of degrees of freedom, more or less.
+    const ROUNDS: usize = 8;
+    let all = design.unknowns.len() as f64;
+    let free = all - design.priors() as f64;
+    if free == all {
+        return all;
+    }
+    (0..ROUNDS).fold(free, |unknowns, _| {
+        hat_trace(design, fit, &each_response(design, fit, unknowns)).unwrap_or(all)
+    })
+}
+
+/// The trace of J(JᵀJ + P)⁻¹Jᵀ of slopes in units of the noise, with the inverse variances P of what is known beforehand. `None` where the
+/// recording does not determine the unknowns.
+fn hat_trace(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<f64> {
+    let rows = evidence::over_noise(&fit.jacobian, u);
+    let known = |unknown: &Unknown| unknown.prior.map_or(0.0, |(_, u)| 1.0 / (u * u));
+    let known = DVector::from_iterator(design.unknowns.len(), design.unknowns.iter().map(known));
+    let mut information = rows.tr_mul(&rows);
+    for (at, known) in known.iter().enumerate() {
+        information[(at, at)] += known;
+    }
+    // In units in which each unknown by itself is known to one.
+    let sizes = information.diagonal().map(f64::sqrt);
+    let scaled = DMatrix::from_fn(sizes.len(), sizes.len(), |i, j| {
+        information[(i, j)] / (sizes[i] * sizes[j])
+    });
+    let inverse = scaled.cholesky()?.inverse();
+    let of_known = |at: usize| inverse[(at, at)] * known[at] / (sizes[at] * sizes[at]);
+    let trace = (0..sizes.len()).map(|at| 1.0 - of_known(at)).sum::<f64>();
+    trace.is_finite().then_some(trace)
 }
 
 /// One standard uncertainty for each response, from the residuals.
 fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let mut u = each_response(design, fit, paid_for(design, fit));
     let blocks = design.blocks.len();
-    let mut u = DVector::zeros(design.observations());
-    for response in 0..design.case.responses.len() {
-        let own = fit.residuals.rows(response * blocks, blocks).into_owned();
-        // A perfect fit leaves the rounding of its arithmetic; where all is zero any positive number serves.
-        let rounding = f64::EPSILON * largest(&design.observed(response));
-        let s = scale(design, &own).max(rounding);
-        let s = if s > 0.0 { s } else { 1.0 };
-        u.rows_mut(response * blocks, blocks).fill(s);
-    }
     let counts = counts(design.case);
     if counts.iter().any(|n| *n != counts[0]) {
         let mean = counts.iter().sum::<f64>() / counts.len() as f64;
@@ -226,4 +255,19 @@ fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
         }
     }
     Claimed::plain(u, 0.0, Origin::Estimated)
+}
+
+/// The same in each of its rows, where the residuals pay for so many unknowns.
+fn each_response(design: &Design<'_>, fit: &Fit, unknowns: f64) -> DVector<f64> {
+    let blocks = design.blocks.len();
+    let mut u = DVector::zeros(design.observations());
+    for response in 0..design.case.responses.len() {
+        let own = fit.residuals.rows(response * blocks, blocks).into_owned();
+        // A perfect fit leaves the rounding of its arithmetic; where all is zero any positive number serves.
+        let rounding = f64::EPSILON * largest(&design.observed(response));
+        let s = scale(design, unknowns, &own).max(rounding);
+        let s = if s > 0.0 { s } else { 1.0 };
+        u.rows_mut(response * blocks, blocks).fill(s);
+    }
+    u
 }

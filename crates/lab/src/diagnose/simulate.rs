@@ -14,7 +14,7 @@ use super::{settled, size};
 use crate::recording::Heading;
 use gumption_core::least_squares::lower_factor;
 use gumption_core::quantity::UnitTable;
-use gumption_core::special::normal_two_sided_quantile;
+use gumption_core::special::student_t_two_sided_quantile;
 
 /// Coverage probability of the band.
 const COVERAGE: f64 = 0.95;
@@ -160,7 +160,11 @@ fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
 /// Half-widths of the band: noise and parameters together.
 fn half_widths(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
     let covariance = confirm::covariance(design, fit, claimed);
-    let factor = normal_two_sided_quantile(COVERAGE);
+    let dof = match claimed.is_estimated() {
+        true => confirm::degrees(design),
+        false => claimed.dof,
+    };
+    let factor = student_t_two_sided_quantile(COVERAGE, dof);
     let half_width = |observation: usize| {
         let (slopes, u) = (
             fit.jacobian.row(observation).transpose(),

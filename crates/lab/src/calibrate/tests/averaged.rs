@@ -108,3 +108,20 @@ fn rows_without_a_label_share_no_error() {
     near(u("run,U\nA,1\nA,2\n,1\n,2\n"), 6f64.sqrt() / 4.0, 1e-12);
     near(u("run,U\nA,1\nA,2\nB,1\nB,2\n"), 8f64.sqrt() / 4.0, 1e-12);
 }
+
+/// A row that is the mean of n readings has 1/n of the variance of one.
+#[test]
+fn the_noise_of_one_reading_is_less_in_rows_of_many() {
+    let rows = [(0.0, 1.0), (1.0, 4.0), (2.0, 9.0), (3.0, 16.0)];
+    let lines = rows.map(|(x, count)| format!("{x},{count},{}\n", 2.0 * x + 0.5));
+    let csv = format!("x,n,U\n{}", lines.concat());
+    let toml = "title = \"Counts\"\nequations = [\"U = K*x + b\"]\nweights = \"readings\"\nnoise.u = 0.3\n[parameter]\nK = {}\nb = {}\n\
+                [recording]\nfile = \"run.csv\"\n[columns]\nn = \"count\"\n";
+    let found = calibrate(&campaign(toml, &csv)).expect("coefficients");
+    let weight: f64 = rows.iter().map(|(_, n)| n).sum();
+    let mean = rows.iter().map(|(x, n)| n * x).sum::<f64>() / weight;
+    let sxx: f64 = rows.iter().map(|(x, n)| n * (x - mean).powi(2)).sum();
+    let stated = (found.figures.causes.iter()).position(|cause| cause.dof == [f64::INFINITY]);
+    let cause = &found.figures.causes[stated.expect("the noise")];
+    near(cause.contribution(0), 0.3 / sxx.sqrt(), 1e-9);
+}

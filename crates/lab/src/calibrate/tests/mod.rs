@@ -1,5 +1,6 @@
 //! Tests of calibrations against closed forms and simulations.
 
+mod agreement;
 mod averaged;
 mod closed_forms;
 mod pattern;

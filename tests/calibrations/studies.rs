@@ -461,3 +461,37 @@ fn written_budgets_give_the_same_uncertainties() {
         }
     }
 }
+
+/// A temperature is a point of its scale, and what errors do to it is a difference.
+#[test]
+fn a_written_budget_of_a_temperature_can_be_evaluated() {
+    let readings = [
+        (1.0, 20.3),
+        (2.0, 20.5),
+        (3.0, 20.8),
+        (4.0, 20.9),
+        (5.0, 21.2),
+    ];
+    let rows = readings.map(|(p, t)| format!("{p},{t},{t}\n"));
+    let folder = common::cases::folder("temperature-budget");
+    std::fs::write(
+        folder.join("run.csv"),
+        format!("P [W],T [°C],T_2 [°C]\n{}", rows.concat()),
+    )
+    .expect("written");
+    let toml = "title = \"Warmth\"\nequations = [\"T = T_0 + R*P + error\"]\nrecording = \"run.csv\"\n[parameter]\nT_0 = {}\nR = {}\n\
+                [input.error]\nunit = \"K\"\nu = 0.05\n";
+    let campaign = read(toml, "case.toml", &folder, Purpose::Calibrate)
+        .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+    let found = calibrate(&campaign).expect("coefficients");
+    let text = budget(
+        &campaign,
+        &found,
+        &[0, 1],
+        gumption::report::Language::English,
+    );
+    let evaluated = evaluation::evaluate(&format!("{text}\n[monte_carlo]\ntrials = 20000\n"));
+    for (one, result) in found.figures.coefficients.iter().zip(&evaluated.results) {
+        assert!((result.gum.u / one.u - 1.0).abs() < 1e-9, "{}", one.name);
+    }
+}

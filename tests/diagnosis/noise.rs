@@ -146,6 +146,65 @@ fn plans_and_simulations_have_the_noise_of_the_recording() {
     }
 }
 
+/// The residuals of five readings on a line have three degrees of freedom: s and the leverages give the band by t, and an input that is
+/// known well costs none.
+#[test]
+fn the_band_of_a_simulation_is_that_of_t() {
+    let folder = folder("band");
+    let readings = [1.02, 2.97, 5.05, 6.96, 9.01];
+    let rows = readings.iter().enumerate();
+    let rows = rows.map(|(x, y)| format!("{x},{y}\n")).collect::<String>();
+    std::fs::write(
+        folder.join("recording.csv"),
+        format!("x [mm],U [V]\n{rows}"),
+    )
+    .expect("written");
+    let mean = readings.iter().sum::<f64>() / 5.0;
+    let x = |row: usize| row as f64 - 2.0;
+    let slope = (0..5).map(|row| x(row) * readings[row]).sum::<f64>() / 10.0;
+    let left = (0..5).map(|row| (readings[row] - mean - slope * x(row)).powi(2));
+    let s = (left.sum::<f64>() / 3.0).sqrt();
+    for known in ["", " * (1 + e)\"\n[input.e]\nu = 1e-9\n#"] {
+        let case = format!(
+            "recording = \"recording.csv\"\nequations = \"U = a + K * x{known}\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n"
+        );
+        std::fs::write(folder.join("case.toml"), case).expect("written");
+        let (good, simulated) = gumption(&folder, &["simulate", "case.toml"]);
+        assert!(good, "{simulated}");
+        for (row, line) in simulated.lines().skip(1).enumerate() {
+            let fields: Vec<f64> = line
+                .split(',')
+                .filter_map(|field| field.parse().ok())
+                .collect();
+            let [.., low, high] = fields.as_slice() else {
+                panic!("{line}");
+            };
+            // t for 97.5 % and ν = 3.
+            let expected = 3.182_446 * s * (1.2 + x(row).powi(2) / 10.0).sqrt();
+            let found = (high - low) / 2.0;
+            assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+        }
+    }
+}
+
+/// Before outputs are recorded, the errors that are stated of each of their readings tell the noise; the recording has its unit.
+#[test]
+fn what_is_stated_of_each_reading_is_the_noise_of_a_plan() {
+    let folder = folder("stated-readings");
+    std::fs::write(folder.join("recording.csv"), "x [mm]\n0\n1\n2\n3\n").expect("written");
+    let case = "recording = \"recording.csv\"\nequations = \"U = a + K * x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n[reading.U]\nunit = \"mV\"\nu = 0.05\n[parameter]\na = { start = \"1 mV\" }\nK = { start = \"2 mV/mm\" }\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, simulated) = gumption(&folder, &["simulate", "case.toml"]);
+    assert!(
+        good && simulated.starts_with("x [mm],U [mV],"),
+        "{simulated}"
+    );
+    let largest = errors(&simulated, "U")
+        .into_iter()
+        .fold(0.0, |most: f64, error| most.max(error.abs()));
+    assert!((0.001..0.25).contains(&largest), "{simulated}");
+}
+
 #[test]
 fn noise_that_only_a_recording_shows_is_said_to_be_unknown() {
     let folder = folder("unknown-noise");

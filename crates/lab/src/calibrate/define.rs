@@ -219,12 +219,17 @@ impl Checker<'_> {
             let silent = contrary::without_scatter(&experiment);
             experiment.remarks.extend(silent);
         }
+        let scatter = self.scatter(is_stated);
+        if self.purpose == Purpose::Calibrate && scatter == Some(Scatter::Stated) {
+            let silent = contrary::stated_without_scatter(&experiment);
+            experiment.remarks.extend(silent);
+        }
         Some(Campaign {
             experiment,
             points,
             omitted,
             results,
-            scatter: self.scatter(is_stated),
+            scatter,
             weights: match table.weights.as_ref().map(|word| word.value) {
                 Some(WeightsWord::Readings) => Weights::Readings,
                 _ => Weights::Equal,

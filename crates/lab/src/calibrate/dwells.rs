@@ -1,5 +1,7 @@
 //! From the samples of a recording to the averages of its dwells.
 
+use nalgebra::DMatrix;
+
 use super::points::{PointColumn, PointNames, Points, Reading};
 use crate::experiment::Words;
 use crate::recording::{
@@ -115,6 +117,7 @@ impl Points {
                     .map(|dwell| name_of(recording, dwell))
                     .collect(),
             ),
+            correlations: correlations(recording, &cut.kept),
             ..Points::default()
         };
         for column in &recording.columns {
@@ -153,6 +156,47 @@ impl Points {
             }
         }
         (points, cut.lost)
+    }
+}
+
+/// How the samples of the columns of numbers go together in each dwell: what disturbs the stimulus while it is recorded, an output
+/// follows.
+fn correlations(recording: &Recording, dwells: &[Dwell]) -> Vec<DMatrix<f64>> {
+    let columns = recording.columns.iter();
+    let samples: Vec<&Vec<f64>> = columns
+        .filter_map(|column| match &column.data {
+            Data::Numbers(samples) => Some(samples),
+            Data::Labels(_) => None,
+        })
+        .collect();
+    let of_dwell = |dwell: &Dwell| {
+        let of = |column: usize| &samples[column][dwell.rows.clone()];
+        let count = samples.len();
+        DMatrix::from_fn(count, count, |one, other| match one == other {
+            true => 1.0,
+            false => correlation(of(one), of(other)),
+        })
+    };
+    dwells.iter().map(of_dwell).collect()
+}
+
+/// Of what both columns have a sample of; 0 where one of them does not vary.
+fn correlation(one: &[f64], other: &[f64]) -> f64 {
+    let both = one.iter().copied().zip(other.iter().copied());
+    let both: Vec<(f64, f64)> = both
+        .filter(|(a, b)| a.is_finite() && b.is_finite())
+        .collect();
+    let count = both.len() as f64;
+    let sums = both
+        .iter()
+        .fold((0.0, 0.0), |sums, (a, b)| (sums.0 + a, sums.1 + b));
+    let (a, b) = (sums.0 / count, sums.1 / count);
+    let product = |of: fn(f64, f64) -> f64| both.iter().map(|(x, y)| of(x - a, y - b)).sum::<f64>();
+    let size = (product(|x, _| x * x) * product(|_, y| y * y)).sqrt();
+    if size > 0.0 {
+        product(|x, y| x * y) / size
+    } else {
+        0.0
     }
 }
 

@@ -166,6 +166,7 @@ impl Gain {
         let levels = levels(stack, scope);
         let count = levels.iter().max().map_or(0, |last| last + 1);
         let mut by_level = DMatrix::zeros(by_row.nrows(), count);
+        let mut sizes = by_level.clone();
         for (index, level) in levels.iter().enumerate() {
             let mut column = by_level.column_mut(*level);
             let share = match &stack.rows[index] {
@@ -173,7 +174,16 @@ impl Gain {
                 Row::Prior { .. } => 1.0,
             };
             column += by_row.column(index) * share;
+            let mut size = sizes.column_mut(*level);
+            size += by_row.column(index).abs() * share.abs();
         }
+        // What cancels leaves the rounding of the sum, which is no effect (Higham, Accuracy and Stability of Numerical Algorithms, 4.2).
+        let rounding = levels.len() as f64 * f64::EPSILON;
+        by_level.zip_apply(&sizes, |effect, size| {
+            if effect.abs() <= rounding * size {
+                *effect = 0.0;
+            }
+        });
         if let (Target::Input(place), Scope::Common, true) = (target, scope, count > 0) {
             let mut column = by_level.column_mut(0);
             column += self.direct.column(*place);

@@ -319,3 +319,23 @@ fn replicates(
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of readings that go together in fours, a quarter as many are independent.
+    #[test]
+    fn noise_at_rest_that_is_correlated_is_known_worse() {
+        let alternating = (0..40).map(|at| if at % 2 == 0 { 1.0 } else { -1.0 });
+        let together = (0..40).map(|at| libm::sin((at / 4 * (at / 4)) as f64));
+        let of = |readings: Vec<f64>| {
+            let average = Average::of(&readings).expect("an average");
+            (OfRow::at_rest(&average).scatter, average)
+        };
+        let ((s, dof), average) = of(alternating.collect());
+        assert_eq!((s, dof), (average.s, 39.0));
+        let ((s, dof), average) = of(together.collect());
+        assert!(s > average.s && dof < 20.0, "{s} {dof}");
+    }
+}

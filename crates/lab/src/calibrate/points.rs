@@ -1,5 +1,7 @@
 //! The points of an experiment: what was set and what was read, once for each.
 
+use nalgebra::DMatrix;
+
 use crate::experiment::Words;
 use crate::recording::{Average, Data, Finding, Labels, Recording};
 use gumption_core::quantity::Unit;
@@ -17,6 +19,9 @@ pub struct Points {
     pub merged: Vec<usize>,
     /// What is doubtful in the recording.
     pub findings: Vec<Finding>,
+    /// Where points are averages of dwells: the correlation coefficients of the samples of the columns in each, in the order of the columns.
+    /// Empty otherwise.
+    pub correlations: Vec<DMatrix<f64>>,
     /// Where points are averages of dwells: what was averaged, the readings farthest from their averages where there are very many.
     pub readings: Vec<Reading>,
 }
@@ -127,8 +132,22 @@ impl Points {
 
     /// Whether any values are averages of samples.
     pub fn are_sampled(&self) -> bool {
-        let mut columns = self.columns.iter();
-        columns.any(|column| !column.averages.is_empty())
+        self.sampled().next().is_some()
+    }
+
+    /// The columns whose values are averages of samples, with their places.
+    pub(super) fn sampled(&self) -> impl Iterator<Item = (usize, &PointColumn)> {
+        let columns = self.columns.iter().enumerate();
+        columns.filter(|(_, column)| !column.averages.is_empty())
+    }
+
+    /// The correlation coefficient of the samples of two columns in a point.
+    pub(super) fn correlation(&self, point: usize, [one, other]: [usize; 2]) -> f64 {
+        let of_point = self.correlations.get(point);
+        let found = of_point.and_then(|matrix| matrix.get((one, other)));
+        found
+            .copied()
+            .unwrap_or(if one == other { 1.0 } else { 0.0 })
     }
 
     /// Some of the points, in the given order, without the readings behind them; places that do not exist are passed over.
@@ -157,6 +176,7 @@ impl Points {
             columns: self.columns.iter().map(column).collect(),
             labels: self.labels.iter().map(labels).collect(),
             merged: picked(&self.merged, &rows),
+            correlations: picked(&self.correlations, &rows),
             findings: self.findings.clone(),
             readings: Vec::new(),
         }

@@ -1,16 +1,19 @@
 //! The scatter of the readings: from residuals, from samples, or stated.
 
+use nalgebra::DMatrix;
+
 use super::agreement::{Agreement, Itself, RARE, Rows, ScatterTest};
 use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
 use super::errors::{OfDoubt, errors, explained};
 use super::gain::Gain;
 use super::noise;
+use super::points::PointColumn;
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
 use crate::experiment::{Observed, Scope, Target};
 use crate::recording::Average;
-use gumption_core::least_squares::Solution;
+use gumption_core::least_squares::{Solution, lower_factor};
 use gumption_core::special::{f_sf, student_t_two_sided_quantile};
 use gumption_gum::budget::Evaluation;
 
@@ -98,13 +101,15 @@ fn within(
 
 /// What is known of each reading by itself. Samples of one reading show one variance, which those of all dwells tell together, and of
 /// which a dwell of few tells little.
-fn each(stack: &Stack<'_>, errors: &[OfDoubt<'_>], rows: &[usize]) -> Vec<Itself> {
+fn each(stack: &Stack<'_>, errors: &[OfDoubt<'_>], sampled: &[f64], rows: &[usize]) -> Vec<Itself> {
     let averages = rows.iter().map(|row| average(stack, &stack.rows[*row]));
     let averages: Vec<Option<&Average>> = averages.collect();
-    let told = averages.iter().flatten().filter(|one| one.dof > 0.0);
-    let (sum, dof) = told.fold((0.0, 0.0), |(sum, dof), one| {
-        let variance = one.u * one.u * one.effective;
-        (sum + one.dof * variance, dof + one.dof)
+    let told = rows.iter().zip(&averages);
+    let told = told.filter_map(|(row, average)| Some((sampled[*row], (*average)?)));
+    let told = told.filter(|(_, average)| average.dof > 0.0);
+    let (sum, dof) = told.fold((0.0, 0.0), |(sum, dof), (variance, one)| {
+        let single = variance * one.effective;
+        (sum + one.dof * single, dof + one.dof)
     });
     let of_each = |row: usize| -> f64 {
         let of_each = errors.iter().filter(|one| !one.is_shared());
@@ -112,10 +117,10 @@ fn each(stack: &Stack<'_>, errors: &[OfDoubt<'_>], rows: &[usize]) -> Vec<Itself
     };
     let of_row = |(row, average): (&usize, &Option<&Average>)| {
         let stated = of_each(*row);
+        let sampled = sampled[*row];
         let Some(average) = average else {
-            return Itself::certain(stated.sqrt());
+            return Itself::certain((stated + sampled).sqrt());
         };
-        let sampled = average.u * average.u;
         let (own, pooled) = (stated + sampled, stated + sum / dof / average.effective);
         if dof == 0.0 || sampled == 0.0 || pooled == 0.0 {
             return Itself::certain(own.sqrt());
@@ -244,6 +249,7 @@ impl Scatters {
         // show of it explains nothing of them.
         let of_some = errors.iter().filter(|one| one.doubt.scope != Scope::Common);
         let by_stated = explained(of_some, gain, &jacobian);
+        let sampled_by_row = sampled_variances(stack, &solution.parameters);
         let mut responses = Vec::new();
         for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
             let rows = stack.rows_of(response);
@@ -292,11 +298,10 @@ impl Scatters {
             };
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
             let test = || {
-                let each = each(stack, &errors, &rows);
+                let each = each(stack, &errors, &sampled_by_row, &rows);
                 let u: Vec<f64> = each.iter().map(|one| one.u).collect();
                 let found = Agreement::of(&held(&u), &errors, &each)?;
-                let sampled_there = |row: usize| sampled_variance(stack, &stack.rows[row]);
-                let square = |row: &usize| allowed[*row] + free(*row) * sampled_there(*row);
+                let square = |row: &usize| allowed[*row] + free(*row) * sampled_by_row[*row];
                 let squares: f64 = rows.iter().map(square).sum();
                 ScatterTest::of(&found, (squares / dof).sqrt(), way, sampled)
             };
@@ -355,31 +360,46 @@ impl Scatters {
     }
 }
 
-/// Every average of samples scatters by itself.
+/// Averages of samples. What the samples of several columns have in common is one error, which goes by the name of the first of them.
 fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
-    let campaign = stack.campaign;
-    let sampled = campaign
-        .points
-        .columns
+    let points = &stack.campaign.points;
+    let sampled: Vec<(usize, &PointColumn)> = points.sampled().collect();
+    let effects: Vec<DMatrix<f64>> = sampled
         .iter()
-        .filter(|column| !column.averages.is_empty());
-    let cause = |column: &super::points::PointColumn| {
-        let target = Target::Reading(column.name.clone());
-        let mut effects = gain.by_errors(stack, &target, &Scope::Each, |_| 1.0);
-        let points = effects.ncols();
-        // Without an average a point has no value, and nothing of it acts.
-        for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {
-            effect *= average.map_or(0.0, |average| average.u);
-        }
+        .map(|(_, column)| {
+            let target = Target::Reading(column.name.clone());
+            let mut effects = gain.by_errors(stack, &target, &Scope::Each, |_| 1.0);
+            // Without an average a point has no value, and nothing of it acts.
+            for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {
+                effect *= average.map_or(0.0, |average| average.u);
+            }
+            effects
+        })
+        .collect();
+    let count = effects.first().map_or(0, DMatrix::ncols);
+    let places = &sampled;
+    let factors: Vec<DMatrix<f64>> = (0..count)
+        .map(|point| {
+            lower_factor(&DMatrix::from_fn(
+                places.len(),
+                places.len(),
+                |one, other| points.correlation(point, [places[one].0, places[other].0]),
+            ))
+        })
+        .collect();
+    let cause = |(at, (_, column)): (usize, &(usize, &PointColumn))| {
+        let own = |coefficient: usize, point: usize| {
+            let parts = effects.iter().enumerate().skip(at);
+            parts
+                .map(|(of, effects)| effects[(coefficient, point)] * factors[point][(of, at)])
+                .sum()
+        };
         Cause {
             origin: Origin::Samples {
                 column: column.name.clone(),
             },
-            effects,
-            dof: column
-                .averages
-                .iter()
-                .take(points)
+            effects: DMatrix::from_fn(gain.coefficients(), count, own),
+            dof: (column.averages.iter().take(count))
                 .map(|average| average.map_or(f64::INFINITY, |average| average.dof))
                 .collect(),
             distribution: None,
@@ -387,7 +407,42 @@ fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
             how: "s/√n_eff".to_owned(),
         }
     };
-    sampled.map(cause).collect()
+    sampled.iter().enumerate().map(cause).collect()
+}
+
+/// The variance of each row's misfit by the samples of which its values are averages. Of an output whose noise is told by itself, they
+/// show nothing but that.
+fn sampled_variances(stack: &Stack<'_>, parameters: &[f64]) -> Vec<f64> {
+    let campaign = stack.campaign;
+    let points = &campaign.points;
+    let doubts = &campaign.experiment.doubts;
+    let told = |column: &PointColumn| doubts.iter().any(|doubt| noise::is_of(doubt, &column.name));
+    let sampled: Vec<(usize, &PointColumn, Vec<f64>)> = points
+        .sampled()
+        .filter(|(_, column)| !told(column))
+        .map(|(place, column)| {
+            let target = Target::Reading(column.name.clone());
+            (place, column, stack.misfit_by(&target, parameters))
+        })
+        .collect();
+    let of_row = |(index, row): (usize, &Row)| {
+        let Row::Reading { point, .. } = row else {
+            return 0.0;
+        };
+        let change = |(_, column, by): &(usize, &PointColumn, Vec<f64>)| {
+            let average = column.averages.get(*point).copied().flatten();
+            average.map_or(0.0, |average| by[index] * average.u)
+        };
+        let changes: Vec<f64> = sampled.iter().map(change).collect();
+        let pairs =
+            (0..changes.len()).flat_map(|one| (0..changes.len()).map(move |other| [one, other]));
+        let product = |pair: [usize; 2]| {
+            let correlation = points.correlation(*point, pair.map(|at| sampled[at].0));
+            correlation * changes[pair[0]] * changes[pair[1]]
+        };
+        pairs.map(product).sum::<f64>().max(0.0)
+    };
+    stack.rows.iter().enumerate().map(of_row).collect()
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use nalgebra::DMatrix;
+
 use super::points::{PointColumn, PointNames, Points};
 use crate::experiment::Words;
 use crate::recording::{Average, Finding, Labels, Problem};
@@ -55,6 +57,13 @@ impl Points {
                 let rows = groups.iter().map(|(_, rows)| rows);
                 column.values = rows.map(|rows| own.root_mean_square(rows)).collect();
             }
+        }
+        if !self.correlations.is_empty() {
+            let mean = |rows: &Vec<usize>| {
+                let all = rows.iter().map(|row| &self.correlations[*row]);
+                all.sum::<DMatrix<f64>>() / rows.len() as f64
+            };
+            points.correlations = groups.iter().map(|(_, rows)| mean(rows)).collect();
         }
         points.findings.extend(uneven(&groups, columns));
         points

@@ -120,7 +120,10 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, Failure> {
             Observed::Constant(_) => None,
         };
         let place = replaced.unwrap_or_else(|| {
-            sheet.header.push(declared.name.clone());
+            sheet.header.push(match declared.observed {
+                Observed::Column(column) => heading(&case.columns[column], &case.units),
+                Observed::Constant(_) => declared.name.clone(),
+            });
             for row in &mut sheet.rows {
                 row.push(String::new());
             }

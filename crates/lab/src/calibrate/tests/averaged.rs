@@ -125,3 +125,38 @@ fn the_noise_of_one_reading_is_less_in_rows_of_many() {
     let cause = &found.figures.causes[stated.expect("the noise")];
     near(cause.contribution(0), 0.3 / sxx.sqrt(), 1e-9);
 }
+
+/// A table that jitters, and is recorded, moves the output with it: neither is uncertain for that.
+#[test]
+fn an_output_that_follows_the_samples_of_the_stimulus_is_no_doubt() {
+    let rows = (0..DWELLS).flat_map(|dwell| (0..ROWS).map(move |row| (dwell, row)));
+    let lines = rows.map(|(dwell, row)| {
+        let jitter = 0.03 * (((row * 4 + dwell) % ROWS) as f64 - 4.0);
+        let noise = 0.001 * (((row * 5 + dwell) % ROWS) as f64 - 4.0);
+        let x = dwell as f64 + jitter;
+        format!("{x:?},P{dwell},{:?},0.03\n", 2.0 * x + 0.5 + noise)
+    });
+    let csv = format!("x,pos,U,uu\n{}", lines.collect::<String>());
+    let toml = "title = \"Jitter\"\nequations = [\"U = K*x + b\"]\nnoise.from = \"dwells\"\n[parameter]\nK = {}\nb = {}\n\
+                [recording]\nfile = \"run.csv\"\ndwells = [\"pos\"]\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n";
+    let found = calibrate(&campaign(toml, &csv)).expect("coefficients");
+    // The same of the output without what the stimulus does: s of −4 … 4 thousandths is √7.5·10⁻³.
+    let alone = 1e-3 * 7.5_f64.sqrt() / (ROWS as f64 * 5.0).sqrt();
+    near(found.figures.coefficients[0].u, alone, 1e-2);
+    let test = found.responses[0].test.expect("a test");
+    // The serial correlation of samples is an estimate, column by column.
+    near(test.expected, 1e-3 * 7.5_f64.sqrt() / 3.0, 0.1);
+}
+
+/// What cancels in all readings has no u of rounding errors, and what the uncertainties leave out is said.
+#[test]
+fn an_error_without_effect_has_none() {
+    let csv = csv();
+    let toml = "title = \"Scale\"\nequations = [\"U = K*x*(1 + e) + b\"]\nnoise.from = \"stated\"\n[parameter]\nK = {}\nb = {}\n[input.e]\nu = 1e-4\n\
+                [recording]\nfile = \"run.csv\"\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n";
+    let campaign = campaign(toml, &csv);
+    let found = calibrate(&campaign).expect("coefficients");
+    assert_eq!(found.figures.coefficients[1].u, 0.0);
+    let mut remarks = campaign.experiment.remarks.iter().map(ToString::to_string);
+    assert!(remarks.any(|said| said.contains("none is stated of each reading of U")));
+}

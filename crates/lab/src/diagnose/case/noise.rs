@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::declared::Declared;
-use super::{Column, NoiseClaim, Observed, Response};
+use super::{Column, Data, NoiseClaim, Observed, Response};
 use crate::experiment::at_rest::{Headed, hours};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
@@ -34,6 +34,36 @@ pub enum Origin {
     Budget(String),
 }
 
+/// The errors that are stated of each reading, output by output.
+fn of_each(responses: &[Response], stated: &[f64]) -> Vec<f64> {
+    let of = |response: &Response| match response.observed {
+        Observed::Column(column) => stated.get(column).copied().unwrap_or(0.0),
+        Observed::Constant(_) => 0.0,
+    };
+    responses.iter().map(of).collect()
+}
+
+fn all_there_is(u: Vec<f64>) -> NoiseClaim {
+    NoiseClaim::Stated {
+        walk: vec![0.0; u.len()],
+        steps: vec![None; u.len()],
+        u,
+        dof: f64::INFINITY,
+        origin: Origin::Case,
+    }
+}
+
+/// Before there are readings only the errors that are stated of each tell their noise.
+fn expected(responses: &[Response], columns: &[Column], stated: &[f64]) -> Option<NoiseClaim> {
+    let is_there = |response: &Response| match response.observed {
+        Observed::Column(column) => !matches!(columns[column].data, Data::Absent),
+        Observed::Constant(_) => true,
+    };
+    let u = of_each(responses, stated);
+    let tells = !responses.iter().all(is_there) && u.iter().all(|u| *u > 0.0);
+    tells.then(|| all_there_is(u))
+}
+
 impl Checker<'_> {
     pub(super) fn noise(
         &mut self,
@@ -51,7 +81,9 @@ impl Checker<'_> {
                 let factors = self.factors_of_u(&columns[column].unit, &of_outputs(responses))?;
                 Some(NoiseClaim::PerRow { column, factors })
             });
-            return column.unwrap_or(NoiseClaim::Estimated);
+            return column
+                .or_else(|| expected(responses, columns, stated))
+                .unwrap_or(NoiseClaim::Estimated);
         };
         match way {
             Way::Stated(amount, dof) => {
@@ -100,11 +132,7 @@ impl Checker<'_> {
         responses: &[Response],
         stated: &[f64],
     ) -> NoiseClaim {
-        let of = |response: &Response| match response.observed {
-            Observed::Column(column) => stated.get(column).copied().unwrap_or(0.0),
-            Observed::Constant(_) => 0.0,
-        };
-        let u: Vec<f64> = responses.iter().map(of).collect();
+        let u = of_each(responses, stated);
         if u.iter().any(|u| *u <= 0.0) {
             let fault = Fault::new(NOISE, place, say!("no error of the readings is stated"));
             self.faults.push(
@@ -116,13 +144,7 @@ impl Checker<'_> {
             );
             return NoiseClaim::Estimated;
         }
-        NoiseClaim::Stated {
-            walk: vec![0.0; u.len()],
-            steps: vec![None; u.len()],
-            u,
-            dof: f64::INFINITY,
-            origin: Origin::Case,
-        }
+        all_there_is(u)
     }
 
     /// Rows of one dwell differ by noise only.

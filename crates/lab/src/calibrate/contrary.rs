@@ -123,7 +123,28 @@ fn of_rows(recording: Option<&RecordingTable>) -> Vec<Said> {
         )),
         _ => None,
     };
-    in_vain.into_iter().chain(of_rows).collect()
+    in_vain
+        .into_iter()
+        .chain(of_rows)
+        .chain(told_twice(table))
+        .collect()
+}
+
+/// One thing tells dwells apart: labels before steps, and these before rest.
+fn told_twice(table: &RecordingTable) -> Option<Said> {
+    let ways = [
+        ("dwells", table.dwells.is_some()),
+        ("steps", table.steps.is_some()),
+        ("still", table.still.is_some()),
+    ];
+    let mut stated = ways
+        .iter()
+        .filter(|(_, is_there)| *is_there)
+        .map(|(key, _)| key);
+    let (first, other) = (stated.next()?, stated.next()?);
+    Some(say!(
+        "`{other}` of [recording] is not used: `{first}` tells the dwells apart."
+    ))
 }
 
 /// Errors that points with the same label share, of columns that hold measured numbers instead of labels: hardly two points have

@@ -261,9 +261,7 @@ fn dwelling(
     let fewest = table.fewest.as_ref().map_or(2, |stated| stated.value);
     Some(Dwelling {
         by: dwells_by(names, table),
-        stimuli: of_role(&checker.source.table.columns, RoleWord::Stimulus)
-            .map(str::to_owned)
-            .collect(),
+        stimuli: set(checker, names),
         time,
         settling: Settling {
             settle,
@@ -271,6 +269,21 @@ fn dwelling(
             fewest: usize::try_from(fewest).unwrap_or(usize::MAX).max(2),
         },
     })
+}
+
+/// The columns that equations have on their right sides, and what is called a stimulus, but for covariates and the time.
+fn set(checker: &Checker<'_>, names: &Names) -> Vec<String> {
+    let columns = &checker.source.table.columns;
+    let stimuli = of_role(columns, RoleWord::Stimulus);
+    let others: Vec<&str> = conditions(checker)
+        .chain(names.responses.iter().map(String::as_str))
+        .collect();
+    let used = names.columns.iter().map(|(name, _)| name.as_str());
+    let used = used.filter(|name| !others.contains(name));
+    let mut all: Vec<String> = stimuli.chain(used).map(str::to_owned).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 /// Labels before steps, and these before rest.

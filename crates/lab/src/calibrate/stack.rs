@@ -296,8 +296,19 @@ impl<'e> Stack<'e> {
                     .start()
                     .unwrap_or_else(|_| vec![1.0; self.campaign.experiment.parameters.len()]);
                 let jacobian = self.jacobian(&at, &ones);
+                let parameters = &self.campaign.experiment.parameters;
+                let combinations = undetermined(&jacobian, parameters);
+                let changes = combinations.iter().flat_map(|one| &one.changes);
+                let is_open = |name: &str| changes.clone().any(|(open, ..)| open == name);
+                let begun = parameters.iter().enumerate();
+                let begun = begun.filter(|(place, one)| {
+                    one.start.is_some()
+                        && is_open(&one.name)
+                        && self.affine_with(*place, &[]).is_empty()
+                });
                 Trouble::Undetermined {
-                    combinations: undetermined(&jacobian, &self.campaign.experiment.parameters),
+                    begun: begun.map(|(_, one)| one.name.clone()).collect(),
+                    combinations,
                 }
             }
             Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
@@ -343,13 +354,20 @@ impl<'e> Stack<'e> {
             .iter()
             .filter_map(|set| self.linear_start(&stated, set));
         let best = found.min_by(|a, b| a.1.total_cmp(&b.1));
-        best.map(|(start, _)| start)
-            .ok_or_else(|| Trouble::NoStart {
-                parameters: open
-                    .iter()
-                    .map(|place| parameters[*place].name.clone())
-                    .collect(),
-            })
+        best.map(|(start, _)| start).ok_or_else(|| {
+            // Those need one that never enter linearly; where all do, as in products of them, any may be held.
+            let bent = |place: &usize| self.affine_with(*place, &[]).is_empty();
+            let of_these: Vec<usize> = open.iter().copied().filter(bent).collect();
+            let named = if of_these.is_empty() {
+                &open
+            } else {
+                &of_these
+            };
+            let name = |place: &usize| parameters[*place].name.clone();
+            Trouble::NoStart {
+                parameters: named.iter().map(name).collect(),
+            }
+        })
     }
 
     /// A largest set of open parameters with this one in which the equations are affine.

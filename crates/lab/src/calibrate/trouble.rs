@@ -35,6 +35,8 @@ pub enum Trouble {
     Undetermined {
         /// Ways in which parameters may change together without any change of the readings.
         combinations: Vec<Combination>,
+        /// Those of these parameters whose start is stated, and that do not enter linearly: from another one they may be told apart.
+        begun: Vec<String>,
     },
     /// The search needs start values.
     NoStart {

@@ -65,6 +65,8 @@ form! {
         parts: Vec<PartForm<'a>> = all(&found.parts, |(label, part)| PartForm::of(label, &part.figures, l)),
         /// What is doubtful in the recording.
         findings: Vec<FindingForm> = all(&campaign.points.findings, |one| FindingForm::of(one, l)),
+        /// Rows that were left out with their reasons, and what the file states in vain.
+        remarks: Vec<String> = all(&campaign.experiment.remarks, |remark| remark.in_language(l)),
     }
 
     /// What a schedule would tell, before anything is measured.

@@ -140,7 +140,10 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
             "significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).",
             "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
         ),
-        Block::Paragraph(say!("U = k·u by the profile {profile}.").in_language(l)),
+        Block::Paragraph(
+            say!("U = k·u, with k by the profile {profile} for a normal or t-distribution.")
+                .in_language(l),
+        ),
     ]
 }
 

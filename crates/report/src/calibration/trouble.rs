@@ -17,14 +17,19 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             "noise.from = \"dwells\" 需要每个驻留段的采样，而本记录每行即一个点。请用 dwells = […] 指明区分驻留段的列，或写 noise.from = \"residuals\"。".into(),
         ),
         Trouble::NoWeights { response } => say!("weights = \"readings\" needs the standard uncertainty of every reading of {response}: state it in [reading.{response}], average samples in dwells, or write weights = \"equal\".").in_language(l),
-        Trouble::Undetermined { combinations } => {
+        Trouble::Undetermined { combinations, begun } => {
             let head = say!("The readings do not tell the parameters apart:").in_language(l);
             let tail = l.pick(
                 "Add points where their effects differ, or take one of them as known ([input.NAME] instead of [parameter.NAME]).",
                 "请增加使其影响不同的测量点，或将其中之一作为已知量（用 [input.NAME] 代替 [parameter.NAME]）。",
             );
             let list: Vec<String> = combinations.iter().map(|c| format!("  • {}", in_words(c, l))).collect();
-            format!("{head}\n{}\n  {tail}", list.join("\n"))
+            let elsewhere = (!begun.is_empty()).then(|| {
+                let names = begun.join(", ");
+                say!("Or the search begins where nothing changes: state another start of {names}.").in_language(l)
+            });
+            let elsewhere = elsewhere.map_or(String::new(), |advice| format!("\n  {advice}"));
+            format!("{head}\n{}\n  {tail}{elsewhere}", list.join("\n"))
         }
         Trouble::NoStart { parameters } => {
             let names = parameters.join(", ");

@@ -30,6 +30,10 @@ fn message(toml: &str, csv: &str) -> String {
     }
 }
 
+fn trouble(toml: &str, csv: &str) -> Trouble {
+    calibrate(&campaign(toml, csv)).expect_err("trouble")
+}
+
 #[track_caller]
 fn says(toml: &str, csv: &str, words: &[&str]) {
     let said = message(toml, csv);
@@ -207,7 +211,6 @@ fn times_need_a_column_of_times() {
 
 #[test]
 fn what_cannot_be_found_is_said() {
-    let trouble = |toml: &str, csv: &str| calibrate(&campaign(toml, csv)).expect_err("trouble");
     let two = "omega [deg/s],U [mV]\n0,1\n";
     assert_eq!(
         trouble(RATE, two),
@@ -217,7 +220,7 @@ fn what_cannot_be_found_is_said() {
         }
     );
     let same = "omega [deg/s],U [mV]\n5,1\n5,2\n5,3\n";
-    let Trouble::Undetermined { combinations } = trouble(RATE, same) else {
+    let Trouble::Undetermined { combinations, .. } = trouble(RATE, same) else {
         panic!("undetermined");
     };
     assert_eq!(combinations.len(), 1);
@@ -663,4 +666,24 @@ fn rows_are_left_out_with_a_reason() {
     );
     says(&left_out("[\"7-9\"]", door), &all, &["has no such rows"]);
     says(&left_out("[\"2-8\"]", door), &all, &["all rows of"]);
+}
+
+/// A parameter that enters linearly once the others are held needs no start, and one that begins where nothing changes a better one.
+#[test]
+fn a_start_is_asked_of_what_needs_one() {
+    let rows = (0..8).map(|x| format!("{x},{}\n", 3.0 * libm::exp(-f64::from(x) / 2.5)));
+    let csv = format!("x,y\n{}", rows.collect::<String>());
+    let decay = |parameters: &str| {
+        format!(
+            "title = \"Decay\"\nequations = [\"y = a*exp(-x/b)\"]\nrecording = \"run.csv\"\n[parameter]\na = {{}}\n{parameters}\n"
+        )
+    };
+    match trouble(&decay("b = {}"), &csv) {
+        Trouble::NoStart { parameters } => assert_eq!(parameters, ["b"]),
+        other => panic!("{other:?}"),
+    }
+    match trouble(&decay("b = { start = 1e-6 }"), &csv) {
+        Trouble::Undetermined { begun, .. } => assert_eq!(begun, ["b"]),
+        other => panic!("{other:?}"),
+    }
 }

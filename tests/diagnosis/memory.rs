@@ -1,5 +1,6 @@
 //! Noise that remembers, and names that say no more than a recording can carry.
 
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use serde_json::Value;
@@ -133,7 +134,7 @@ fn a_lag_within_the_means_of_a_long_recording_is_found() {
         let t = 0.02 * f64::from(row);
         // What a first-order filter makes of a sine: its response at this frequency.
         let sines = [(50.0, 1.5), (20.0, 11.0)].map(|(size, period)| {
-            let w = std::f64::consts::TAU / period;
+            let w = TAU / period;
             let late = libm::atan(w * tau);
             let less = 1.0 / libm::sqrt(1.0 + w * tau * w * tau);
             [
@@ -147,8 +148,38 @@ fn a_lag_within_the_means_of_a_long_recording_is_found() {
     }
     let case = "equations = \"out = b + s*rate\"\n[columns]\nt = \"time\"\nrate = \"stimulus\"\nout = \"output\"\n";
     let found = diagnosed_with("quick-lag", &text, case);
-    // What comes half at once and half after twice the time does nearly the same.
+    // What comes half at once and half after twice the time does nearly the same, and is no delay.
     let effects = named_apart(&found);
     assert_eq!(effects.len(), 1, "{found:#}");
-    assert!(effects[0].iter().any(|name| name == "lag"), "{found:#}");
+    assert_eq!(effects[0][0], "lag", "{found:#}");
+}
+
+/// A course without corners, and a filter that is not in balance when the recording begins; the time constant with its u.
+#[test]
+fn a_lag_that_is_under_way_is_one_effect() {
+    let mut noise = Noise(51);
+    let (tau, interval) = (0.5, 0.2);
+    let course = |t: f64| 50.0 * libm::sin(TAU * t / 20.0) + 10.0 * libm::sin(TAU * t / 7.0 + 1.0);
+    let mut text = "t [s],x [mm],U [V]\n".to_owned();
+    // In steps of a hundredth of an interval, from a value that is not that of the course.
+    let mut late = course(0.0) - 12.0;
+    for row in 0..400 {
+        let t = interval * f64::from(row);
+        let u = 0.3 + 0.1 * late + 0.01 * noise.normal();
+        let _ = writeln!(text, "{t:.1},{:.4},{u:.4}", course(t));
+        for step in 0..100 {
+            let middle = course(t + interval * (f64::from(step) + 0.5) / 100.0);
+            late = middle + (late - middle) * libm::exp(-interval / 100.0 / tau);
+        }
+    }
+    let case =
+        "equations = \"U = a + K*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\nU = \"output\"\n";
+    let found = diagnosed_with("under-way", &text, case);
+    assert_eq!(named_apart(&found), [["lag"]], "{found:#}");
+    let shape = &found["improved"]["shapes"][0];
+    let [found_tau, u] = ["value", "u"].map(|key| shape["estimate"][key].as_f64().expect("τ"));
+    assert!(
+        (found_tau - tau).abs() < 4.0 * u && u < 0.01,
+        "{found_tau} ± {u}"
+    );
 }

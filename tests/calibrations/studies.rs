@@ -4,7 +4,9 @@
 use crate::common::{self, evaluation};
 use std::collections::BTreeSet;
 
-use gumption::calibrate::{Calibration, Campaign, Scatter, budget, calibrate, estimates, read};
+use gumption::calibrate::{
+    Calibration, Campaign, Origin, Scatter, budget, calibrate, estimates, read,
+};
 use gumption::distribution::Distribution as Shape;
 use gumption::experiment::procedure::PROCEDURES;
 use gumption::experiment::{Doubt, Purpose, Scope, Target};
@@ -272,7 +274,14 @@ fn simulated(example: &Example, other: &Other<'_>, random: &mut StdRng) -> DVect
         .map(|row| other.columns(row))
         .collect();
     let mut added = vec![0.0; other.rows.len()];
-    for doubt in &campaign.experiment.doubts {
+    // What acts at all: of an output of which all residuals count, these contain the errors of each reading.
+    let acts = |doubt: &&Doubt| {
+        let mut causes = example.found.figures.causes.iter();
+        causes.any(
+            |cause| matches!(&cause.origin, Origin::Stated { name, .. } if *name == doubt.name),
+        )
+    };
+    for doubt in campaign.experiment.doubts.iter().filter(acts) {
         let errors = drawn(doubt, campaign, random);
         for act in &doubt.acts {
             if let Target::Input(place) = act.on {

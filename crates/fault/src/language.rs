@@ -69,8 +69,8 @@ impl Language {
         }
         let (first, others) = (&names[..FIRST], names.len() - FIRST);
         match self {
-            Language::English => format!("{} and {others} other inputs", first.join(", ")),
-            Language::Chinese => format!("{} 等 {} 个输入量", first.join("、"), names.len()),
+            Language::English => format!("{} and {others} others", first.join(", ")),
+            Language::Chinese => format!("{} 等 {} 项", first.join("、"), names.len()),
         }
     }
 

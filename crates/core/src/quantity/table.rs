@@ -1,6 +1,6 @@
 //! The units known to a file, and the reading of unit texts.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::LazyLock;
 
 use gumption_fault::say;
@@ -17,7 +17,8 @@ use super::unit::{Unit, UnitParts};
 /// The units known to a file: the built-in ones and those of its `[unit]` table.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct UnitTable {
-    own: HashMap<String, Scale>,
+    /// In their order, so that of suggestions as good as each other the same comes first.
+    own: BTreeMap<String, Scale>,
 }
 
 /// What stands behind a name.
@@ -55,7 +56,7 @@ static BUILTIN: LazyLock<HashMap<&'static str, Scale>> = LazyLock::new(|| {
 fn builtin_scale(row: &BuiltinUnit, known: &HashMap<&'static str, Scale>) -> Option<Scale> {
     let equal = |text: &str| {
         let parsed = parse(text, Numbers::Any).ok()?;
-        combine(&parsed, |name| lookup(name, &HashMap::new(), known)).ok()
+        combine(&parsed, |name| lookup(name, &BTreeMap::new(), known)).ok()
     };
     let mut scale = match row.definition {
         Definition::Base(place, ten) => {
@@ -234,7 +235,7 @@ impl UnitTable {
 /// candela; the file's own units before the built-in ones.
 fn lookup(
     name: &str,
-    own: &HashMap<String, Scale>,
+    own: &BTreeMap<String, Scale>,
     builtin: &HashMap<&'static str, Scale>,
 ) -> Option<Scale> {
     let whole = |name: &str| own.get(name).or_else(|| builtin.get(name)).copied();

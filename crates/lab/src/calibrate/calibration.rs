@@ -284,7 +284,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
         for (row, u) in stack.rows.iter().zip(&mut u) {
             if let Row::Reading { response, .. } = row {
                 let scatter = &scatters.responses[*response];
-                let s = scatter.s / scatter.unit;
+                let s = scatter.relative;
                 change = change.max((s - 1.0).abs());
                 *u *= s;
             }
@@ -412,7 +412,7 @@ fn residuals(
             .dot(&gain.by_observed.column(index).rows(0, count));
         let free = (1.0 - leverage).max(0.0);
         let scatter = &scatters.responses[*response];
-        let s = scatter.s * (u[index] / scatter.unit) * free.sqrt();
+        let s = scatter.relative * u[index] * free.sqrt();
         let residual = solution.residuals[index];
         residuals.push(Residual {
             point: *point,

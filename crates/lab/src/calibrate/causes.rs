@@ -20,7 +20,10 @@ pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f
         }
     }
     // The independent parts of correlated errors bear one name, and are one cause.
-    let doubts = &stack.campaign.experiment.doubts;
+    let doubts = stack.campaign.experiment.doubts.iter();
+    let doubts: Vec<&Doubt> = doubts
+        .filter(|doubt| !scatters.contain(stack, doubt))
+        .collect();
     all.extend(
         doubts
             .chunk_by(|a, b| a.name == b.name)

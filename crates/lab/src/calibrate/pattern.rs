@@ -157,7 +157,7 @@ impl Residuals<'_> {
     fn by_parts(&self) -> Option<(PatternTest, f64)> {
         let column = self.stack.campaign.separately.clone()?;
         let squares = |one: &ResponseScatter| match one.dof > 0.0 {
-            true => [one.s * one.s * one.dof, one.dof],
+            true => [one.relative * one.relative * one.dof, one.dof],
             false => [0.0; 2],
         };
         let of_parts = self.parts.iter().filter_map(|part| part.get(self.response));

@@ -11,7 +11,7 @@ use super::noise;
 use super::points::PointColumn;
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
-use crate::experiment::{Observed, Scope, Target};
+use crate::experiment::{Act, Doubt, Observed, Scope, Target};
 use crate::recording::Average;
 use gumption_core::least_squares::{Solution, lower_factor};
 use gumption_core::special::{f_sf, student_t_two_sided_quantile};
@@ -35,14 +35,16 @@ pub struct ResponseScatter {
     pub rms: f64,
     /// Standard deviation of a reading from the residuals, √(Σr²/ν), in the unit of the response, whatever their weights. NaN for ν = 0.
     pub s: f64,
-    /// The standard uncertainty with which each of its rows was weighted, where all were alike; one where they have weights.
-    pub(super) unit: f64,
+    /// The same of residuals in units of the standard uncertainties with which the rows were weighted.
+    pub(super) relative: f64,
     /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
     pub dof: f64,
-    /// Standard deviation of a reading by itself: in the unit of the response, of one of unit weight where the readings have weights.
+    /// Standard deviation of a reading by itself, in the unit of the response; of one of unit weight where the readings have weights.
     pub own: f64,
     /// Degrees of freedom of `own`.
     pub own_dof: f64,
+    /// The standard uncertainty with which each of its rows was weighted, where all were alike; one where they have weights.
+    pub(super) unit: f64,
     /// What of the residuals it is.
     pub part: Part,
     /// The test against what samples and stated errors of each reading say, where they say anything.
@@ -54,24 +56,23 @@ pub struct ResponseScatter {
 pub enum Part {
     /// What the stated errors do not explain.
     Rest,
-    /// All of them: the rest is known too badly to promise less.
+    /// All of them, with the stated errors of each reading in them: these explain all, and would promise more than is known.
     Whole,
 }
 
 /// The standard deviation of a reading by itself, with its degrees of freedom: from the sum of squares of residuals without what
-/// stated errors explain of it, or from all of it. The difference has the variance of the whole sum, and where it is small beside it,
-/// hardly any degrees of freedom (Gaylor and Hopper 1969): the whole is never too small, and taken where it promises a narrower interval.
+/// stated errors explain of it, which beside these errors gives back s with its ν (Gaylor and Hopper 1969, and Welch and Satterthwaite);
+/// or, where the stated errors explain all of it and promise a narrower interval than s does, from all of it.
 fn own(total: f64, explained: f64, dof: f64) -> (f64, f64, Part) {
     /// Of the intervals that are compared.
     const PROBABILITY: f64 = 0.95;
     let rest = (total - explained).max(0.0);
     // Of residuals that are zero nothing is explained.
     let share = if total > 0.0 { rest / total } else { 1.0 };
-    let rest_dof = dof * share.powi(2);
     let width = |sum: f64, dof: f64| sum.sqrt() * student_t_two_sided_quantile(PROBABILITY, dof);
-    let is_known = explained == 0.0 || rest > 0.0 && width(rest, rest_dof) <= width(total, dof);
-    match is_known || dof == 0.0 {
-        true => ((rest / dof).sqrt(), rest_dof, Part::Rest),
+    let is_rest = rest > 0.0 || width(explained, f64::INFINITY) >= width(total, dof);
+    match is_rest || dof == 0.0 {
+        true => ((rest / dof).sqrt(), dof * share.powi(2), Part::Rest),
         false => ((total / dof).sqrt(), dof, Part::Whole),
     }
 }
@@ -310,10 +311,11 @@ impl Scatters {
                 readings: rows.len(),
                 rms: (sum(&ones) / rows.len() as f64).sqrt(),
                 s: (sum(&ones) / dof).sqrt(),
-                unit,
+                relative: (sum(u) / dof).sqrt(),
                 dof,
                 own: unit * own,
                 own_dof,
+                unit,
                 part,
                 test: (complete && dof > 0.0).then_some(()).and_then(|()| test()),
             });
@@ -336,6 +338,30 @@ impl Scatters {
             Scatter::Residuals => self.of_residuals(stack, gain, u),
             Scatter::Dwells => of_samples(stack, gain),
         }
+    }
+
+    /// Whether the residuals that are taken for scatter contain a stated error: one that each reading has for itself, of responses of which
+    /// all residuals are.
+    pub fn contain(&self, stack: &Stack<'_>, doubt: &Doubt) -> bool {
+        let experiment = &stack.campaign.experiment;
+        let is_whole = |act: &Act| {
+            let Target::Reading(read) = &act.on else {
+                return false;
+            };
+            let observes =
+                |observed: &Observed| matches!(observed, Observed::Column(name) if name == read);
+            let responses = 0..experiment.equations.responses().len();
+            let mut used = responses.flat_map(|response| experiment.equations.uses(response));
+            let is_stimulus = used.any(|place| {
+                let column = experiment.columns.get(*place);
+                column.is_some_and(|column| column.name == *read)
+            });
+            let mut of = self.responses.iter().zip(&experiment.observed);
+            !is_stimulus && of.any(|(one, observed)| observes(observed) && one.part == Part::Whole)
+        };
+        self.way == Scatter::Residuals
+            && doubt.scope == Scope::Each
+            && doubt.acts.iter().all(is_whole)
     }
 
     fn of_residuals(&self, stack: &Stack<'_>, gain: &Gain, u: &[f64]) -> Vec<Cause> {
@@ -449,14 +475,22 @@ fn sampled_variances(stack: &Stack<'_>, parameters: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Two degrees of freedom, and residuals that stated errors explain, or nearly.
+    /// s and its ν come back, where the stated errors explain no more than the residuals.
     #[test]
-    fn scatter_that_cannot_be_told_from_stated_errors_is_all_of_the_residuals() {
+    fn the_rest_beside_stated_errors_is_all_of_the_residuals() {
+        for explained in [0.0, 1.5, 1.999] {
+            let (rest, dof, part) = own(2.0, explained, 2.0);
+            assert_eq!(part, Part::Rest);
+            assert!((rest.powi(2) + explained / 2.0 - 1.0).abs() < 1e-12);
+            let fourth = rest.powi(4) / dof;
+            assert!((1.0 / fourth - 2.0).abs() < 1e-9, "{explained}");
+        }
+    }
+
+    /// Two degrees of freedom make s as wide as 2.2 u; many do not.
+    #[test]
+    fn residuals_that_stated_errors_explain_are_taken_whole_where_they_tell_little() {
         assert_eq!(own(2.0, 3.0, 2.0), (1.0, 2.0, Part::Whole));
-        assert_eq!(own(2.0, 1.5, 2.0), (1.0, 2.0, Part::Whole));
-        assert_eq!(own(2.0, 0.0, 2.0), (1.0, 2.0, Part::Rest));
-        let (s, dof, part) = own(50.0, 10.0, 50.0);
-        assert_eq!((s, part), ((40.0_f64 / 50.0).sqrt(), Part::Rest));
-        assert!((dof - 32.0).abs() < 1e-12);
+        assert_eq!(own(200.0, 300.0, 200.0), (0.0, 0.0, Part::Rest));
     }
 }

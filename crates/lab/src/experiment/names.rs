@@ -1,6 +1,6 @@
 //! What the names in the equations are.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::checker::Checker;
@@ -25,7 +25,8 @@ pub(crate) enum Kind {
 
 /// The names of the equations.
 pub(crate) struct Names {
-    kinds: HashMap<String, Kind>,
+    /// In their order, so that of suggestions as good as each other the same comes first.
+    kinds: BTreeMap<String, Kind>,
     /// Columns of numbers that the points must have, each where it stands first.
     pub columns: Vec<(String, Range<usize>)>,
     /// Names on left sides, in the order of the equations.
@@ -173,9 +174,9 @@ fn column_as_input(name: &str, place: &Range<usize>, column: &Range<usize>) -> F
 }
 
 /// What the file declares.
-fn declared(checker: &mut Checker<'_>) -> HashMap<String, Kind> {
+fn declared(checker: &mut Checker<'_>) -> BTreeMap<String, Kind> {
     let table = &checker.source.table;
-    let mut kinds: HashMap<String, (Kind, Range<usize>)> = HashMap::new();
+    let mut kinds: BTreeMap<String, (Kind, Range<usize>)> = BTreeMap::new();
     let mut faults = Vec::new();
     let mut declare = |name: &str, kind: Kind, place: &Range<usize>| {
         let before = kinds.get(name).map(|(kind, place)| (*kind, place.clone()));

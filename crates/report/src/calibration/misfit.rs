@@ -89,7 +89,7 @@ fn whole(campaign: &Campaign, found: &Calibration, l: Language) -> String {
     }
     let names = l.list(&names);
     let mut text =
-        say!(" Of {names} that part is known too badly, and all of the residuals are taken.")
+        say!(" The residuals of {names} are smaller than the stated errors, and so few that they do not show how much smaller: all of them are taken, in place of the errors stated of each reading.")
             .in_language(l);
     if campaign.points.are_sampled() {
         text += l.pick(

@@ -126,6 +126,9 @@ pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
             say!("Noise that is correlated between {rows} rows takes about {needed} GiB of memory, and at most {most} GiB are taken. Simulate a part of the recording, or state the noise without `walk` and `at_rest`.").in_language(l)
         }
         Failure::Refused(Refusal::Cancelled) => l.pick("stopped".to_owned(), "已中断".to_owned()),
-        Failure::Refused(other) => other.to_string(),
+        Failure::Refused(Refusal::NoFreedom { rows, parameters }) => say!("{rows} rows leave no degree of freedom beside {parameters} parameters").in_language(l),
+        Failure::Refused(Refusal::Variance { .. }) => say!("the noise has rows whose variance is not a positive number").in_language(l),
+        Failure::Refused(Refusal::NotPositive) => say!("the covariance matrix of the noise is not positive definite").in_language(l),
+        Failure::Refused(Refusal::NotFinite { .. }) => say!("the model has no finite value or slope in some rows").in_language(l),
     }
 }

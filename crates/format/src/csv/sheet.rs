@@ -227,6 +227,10 @@ impl<'a> Sheet<'a> {
         rows.map_while(move |row| match row {
             _ if broken => None,
             Ok(row) if row.len() == self.header.len() => Some(Ok(row)),
+            // Loggers end every line with a separator: what follows it is no column.
+            Ok(row) if row.len() == self.header.len() + 1 && row.ends_in_nothing() => {
+                Some(Ok(row.without_last()))
+            }
             Ok(row) => Some(Err(Box::new(BadRow {
                 fault: self.wrong_length(&row),
                 row: Some(row),
@@ -305,6 +309,30 @@ impl Row<'_> {
     /// Whether it has no field.
     pub fn is_empty(&self) -> bool {
         self.len == 0
+    }
+
+    fn ends_in_nothing(&self) -> bool {
+        self.fields().last().is_none_or(str::is_empty)
+    }
+
+    /// Without its last field.
+    fn without_last(self) -> Self {
+        let len = self.len - 1;
+        let fields = match self.fields {
+            Fields::Line(line, separator) => {
+                let end = line.rfind(char::from(separator)).unwrap_or(line.len());
+                Fields::Line(&line[..end], separator)
+            }
+            Fields::Quoted(mut fields) => {
+                fields.truncate(len);
+                Fields::Quoted(fields)
+            }
+        };
+        Row {
+            fields,
+            len,
+            ..self
+        }
     }
 
     /// A field without white space around it; empty for a field that the row lacks.
@@ -631,6 +659,20 @@ mod tests {
                     .to_string()
                     .ends_with("; 3 more rows like this")
         );
+    }
+
+    #[test]
+    fn a_separator_at_the_end_of_rows_makes_no_column() {
+        let text = "a,b\n1,2,\n\"3\",4, \n5,6\n7,8,9\n";
+        let sheet = Sheet::new(text).expect("a header");
+        let rows: Vec<Vec<String>> = sheet
+            .rows()
+            .flatten()
+            .map(|row| row.fields().map(str::to_owned).collect())
+            .collect();
+        assert_eq!(rows, [["1", "2"], ["3", "4"], ["5", "6"]]);
+        let faults = sheet.visit(|_| ()).expect_err("a bad row");
+        assert_eq!(faults.len(), 1);
     }
 
     #[test]

@@ -1,16 +1,18 @@
 //! A claimed budget as a budget file: what the sheet states, not what it computes.
 
+mod input;
+
 use std::fmt::Write as _;
 
 use crate::calculate::{Case, Factor, Freedom, t};
-use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
-use crate::printed::Printed;
-use crate::read::is_of_type;
+use crate::claim::{Claimed, Coverage, RoundingStated, Stated};
 use crate::units;
 use gumption_core::model::is_reserved;
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
 use gumption_format::toml::writing::quoted;
+
+use input::Input;
 
 /// A budget file, with remarks as comments, in a language, where the sheet leaves something open.
 pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
@@ -52,13 +54,10 @@ pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
             let _ = writeln!(text, "model = {}", quoted(&sum.join(" + ")));
         }
     }
-    if units::parse(&unit).is_some() {
-        let _ = writeln!(text, "unit = {}", quoted(&unit));
-    }
-    for (i, row) in claimed.rows.iter().enumerate() {
+    text += &line_of_unit(&unit);
+    for i in 0..claimed.rows.len() {
         let input = Input {
             case,
-            row,
             line: i,
             name: &names[i],
             of_model: model.is_some(),
@@ -70,24 +69,40 @@ pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
         let _ = write!(
             text,
             "\n[[correlation]]\nbetween = [{}, {}]\nr = {}\n",
-            quoted(&names[pair.a]),
-            quoted(&names[pair.b]),
+            quoted(&reason(claimed, &names, pair.a, model.is_some())),
+            quoted(&reason(claimed, &names, pair.b, model.is_some())),
             pair.r
         );
     }
     text
 }
 
-/// Whether every row is an input of the model, and only one is.
+/// Whether every row is an input of the model, or a reason to doubt one.
 fn has_all(claimed: &Claimed, model: &str) -> bool {
-    let rows = claimed.rows.iter().enumerate();
-    rows.clone().all(|(i, row)| {
-        let others = rows.clone().filter(|(j, _)| *j != i);
-        let alone = others
-            .map(|(_, other)| &other.symbol)
-            .all(|symbol| *symbol != row.symbol);
-        alone && row.not_counted.is_none() && crate::read::has_symbol(model, &row.symbol)
+    claimed.rows.iter().enumerate().all(|(i, row)| {
+        let alike = of_symbol(claimed, i);
+        let is_counted = |j: &usize| claimed.rows[*j].not_counted.is_none();
+        // Limits that are not equal say where the estimate is, which several rows do not.
+        let is_component = alike.len() == 1 || !matches!(row.stated, Stated::Unequal { .. });
+        alike.iter().any(is_counted) && is_component && crate::read::has_symbol(model, &row.symbol)
     })
+}
+
+/// The rows of the quantity of a row: in a model several rows of one symbol are reasons to doubt one input.
+fn of_symbol(claimed: &Claimed, i: usize) -> Vec<usize> {
+    let symbol = &claimed.rows[i].symbol;
+    let is_of_it = |j: &usize| *j == i || !symbol.is_empty() && claimed.rows[*j].symbol == *symbol;
+    (0..claimed.rows.len()).filter(is_of_it).collect()
+}
+
+/// What the file calls a row: an input, or one of several components of it.
+fn reason(claimed: &Claimed, names: &[String], i: usize, of_model: bool) -> String {
+    match of_symbol(claimed, i).as_slice() {
+        [first, _, ..] if of_model => {
+            format!("{}.{}", names[*first], input::component_name(claimed, i))
+        }
+        _ => names[i].clone(),
+    }
 }
 
 /// The title of a file, or what stands for one.
@@ -161,6 +176,14 @@ fn unit_of_result(claimed: &Claimed) -> String {
     }
 }
 
+/// The line of a unit that is known, in symbols.
+fn line_of_unit(unit: &str) -> String {
+    match units::parse(unit) {
+        Some(_) => format!("unit = {}\n", quoted(&units::in_symbols(unit))),
+        None => String::new(),
+    }
+}
+
 /// The unit of contributions, which are differences: two points of the Celsius scale have no sum.
 fn of_difference(unit: String) -> String {
     let known = units::parse(&unit).filter(gumption_core::quantity::Unit::is_point);
@@ -190,177 +213,6 @@ fn identifier(symbol: &str, otherwise: &str) -> String {
     match plain && begins && !is_reserved(symbol) {
         true => symbol.to_string(),
         false => otherwise.to_string(),
-    }
-}
-
-/// One input of the file.
-struct Input<'a> {
-    case: &'a Case<'a>,
-    row: &'a Row,
-    line: usize,
-    name: &'a str,
-    of_model: bool,
-    language: Language,
-}
-
-impl Input<'_> {
-    fn text(&self, y_unit: &str) -> String {
-        let row = self.row;
-        let mut text = String::new();
-        if let Some(why) = &row.not_counted {
-            let label = row.label();
-            return format!("\n{}", self.remark(say!("{label} is not counted: {why}")));
-        }
-        // Of what is known exactly no uncertainty is stated.
-        let kind = match self.is_exact() {
-            true => "constant",
-            false => "input",
-        };
-        let _ = write!(text, "\n[{kind}.{}]\n", self.name);
-        let description = if row.name.is_empty() {
-            row.label()
-        } else {
-            &row.name
-        };
-        let _ = writeln!(text, "description = {}", quoted(description));
-        let said = comment(&row.words);
-        if !said.is_empty() && said != *description {
-            text += &self.remark(say!("The sheet: {said}"));
-        }
-        let unit = self.unit(y_unit);
-        let value = row.value.as_ref().filter(|_| self.of_model);
-        let _ = writeln!(
-            text,
-            "value = {}",
-            value.map_or("0".into(), |v| number(v.value))
-        );
-        if units::parse(&unit).is_some() {
-            let _ = writeln!(text, "unit = {}", quoted(&unit));
-        }
-        match self.is_exact() {
-            true => text,
-            false => text + &self.knowledge(&unit),
-        }
-    }
-
-    /// Whether the sheet states neither a figure of its uncertainty nor one from which that follows.
-    fn is_exact(&self) -> bool {
-        self.row.stated == Stated::Nothing && self.case.right.lines[self.line].u == 0.0
-    }
-
-    /// The unit of the estimate, or of the result for a contribution.
-    fn unit(&self, y_unit: &str) -> String {
-        if !self.of_model {
-            return y_unit.to_string();
-        }
-        let value = self
-            .row
-            .value
-            .as_ref()
-            .map_or("", |value| value.unit.as_str());
-        if value.is_empty() {
-            self.row.unit.clone()
-        } else {
-            value.to_string()
-        }
-    }
-
-    fn remark(&self, said: Said) -> String {
-        remark(said, self.language)
-    }
-
-    /// What a figure of the row is multiplied by to be in the unit of the input.
-    fn factor(&self, unit: &str) -> f64 {
-        let line = &self.case.right.lines[self.line];
-        if self.of_model {
-            units::factor(&self.row.unit, unit).unwrap_or(1.0)
-        } else {
-            let to_result = units::factor(&self.case.claimed.unit, unit).unwrap_or(1.0);
-            (line.c * line.to_y).abs() * to_result
-        }
-    }
-
-    fn knowledge(&self, unit: &str) -> String {
-        let factor = self.factor(unit) * self.row.relative_factor();
-        let scaled = |figure: &Printed| number(figure.value * factor);
-        let line = &self.case.right.lines[self.line];
-        let mut text = String::new();
-        if self.row.relative != Relative::No {
-            text += &self.remark(say!("Relative on the sheet."));
-        }
-        let dof = match line.dof.is_finite() {
-            true => format!("dof = {}\n", number(line.dof)),
-            false => String::new(),
-        };
-        let standard = || format!("u = {}\n{dof}", number(line.u * self.factor(unit)));
-        let limits = |half: f64, shape: Shape| {
-            let distribution = match shape {
-                Shape::Rectangular => String::new(),
-                Shape::Triangular => "distribution = \"triangular\"\n".into(),
-                Shape::Arcsine => "distribution = \"arcsine\"\n".into(),
-                Shape::Trapezoidal(beta) => {
-                    format!("distribution = \"trapezoidal\"\nbeta = {beta}\n")
-                }
-                Shape::Normal(_) | Shape::TwoPoint => return standard(),
-            };
-            let half = number(half * factor);
-            format!("half_width = {half}\n{distribution}{dof}")
-        };
-        text += &match &self.row.stated {
-            Stated::Certificate {
-                expanded,
-                k,
-                k_stated,
-            } => {
-                let open = match k_stated {
-                    true => String::new(),
-                    false => self.remark(say!("The sheet does not state k.")),
-                };
-                let expanded = scaled(expanded);
-                let dof = match dof.trim_end() {
-                    "" => String::new(),
-                    dof => format!(", {dof}"),
-                };
-                format!("{open}certificate = {{ U = {expanded}, k = {k:?}{dof} }}\n")
-            }
-            Stated::Limits {
-                half_width,
-                shape,
-                shape_stated,
-            } => {
-                let open = match shape_stated {
-                    true => String::new(),
-                    false => self.remark(say!("Nothing but limits is stated: rectangular.")),
-                };
-                format!("{open}{}", limits(half_width.value, *shape))
-            }
-            Stated::FullWidth { width, shape } => limits(width.value / 2.0, *shape),
-            Stated::Step { step } => format!("step = {}\n{dof}", scaled(step)),
-            Stated::Unequal { plus, minus } => {
-                let value = self
-                    .row
-                    .value
-                    .as_ref()
-                    .filter(|_| self.of_model)
-                    .map_or(0.0, |v| v.value);
-                let (low, high) = (value - minus.value * factor, value + plus.value * factor);
-                format!("limits = [{}, {}]\n{dof}", number(low), number(high))
-            }
-            Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
-                let of = match *m {
-                    1.0 => say!("Of a single reading."),
-                    m => say!("Of the mean of {m} readings."),
-                };
-                format!("{}{}type = \"A\"\n", self.remark(of), standard())
-            }
-            Stated::Standard { .. } | Stated::Nothing => {
-                let remark = self.remark(say!("The sheet states no more than this figure."));
-                let is_of_type_a = is_of_type(&self.row.evaluation.to_lowercase(), "a");
-                let of_type = if is_of_type_a { "type = \"A\"\n" } else { "" };
-                format!("{remark}{}{of_type}", standard())
-            }
-        };
-        text
     }
 }
 

@@ -1,5 +1,6 @@
 //! Sheets from text to verdict.
 
+mod chinese;
 mod columns;
 mod contained;
 mod coverage;

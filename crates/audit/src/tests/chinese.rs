@@ -54,3 +54,19 @@ fn an_unknown_unit_is_told() {
     assert_eq!(answer("sheet.csv", sheet).0, Verdict::Sound);
     assert!(imported(sheet).contains("`斛`"));
 }
+
+/// π is no input that the table lacks.
+#[test]
+fn pi_is_a_number() {
+    for pi in ["π", "pi"] {
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "测量模型：V = {pi}*D^2*h/4\n\n输入量,估计值,半宽,分布,除数,标准不确定度,灵敏系数,分量\n\
+                 D,10.08 mm,0.010 mm,均匀,√3,0.00577 mm,160.10 mm2,0.924 mm3\n\
+                 h,10.11 mm,0.010 mm,均匀,√3,0.00577 mm,79.80 mm2,0.461 mm3\n\
+                 合成标准不确定度 uc = 1.03 mm3,,,,,,,\n扩展不确定度 U = 2.1 mm3 (k = 2),,,,,,,\n"
+            ),
+        );
+    }
+}

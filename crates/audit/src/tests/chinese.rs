@@ -70,3 +70,77 @@ fn pi_is_a_number() {
         );
     }
 }
+
+/// A row that says that it is not counted, in the words that are usual.
+#[test]
+fn the_smaller_of_resolution_and_repeatability_is_not_counted() {
+    let sheet = |resolution: &str, part: &str, whole: [&str; 2]| {
+        let [u_c, expanded] = whole;
+        format!(
+            "输入量,标准不确定度来源,标准不确定度,灵敏系数,分量\nIx,天平重复性,0.0800 mg,1,0.0800 mg\n\
+             Ix,{resolution},0.0290 mg,1,{part}\nms,标准砝码,0.0500 mg,-1,0.0500 mg\nδB,空气浮力,0.0300 mg,-1,0.0300 mg\n\
+             uc,,,,{u_c} mg\nU(k=2),,,,{expanded} mg\n"
+        )
+    };
+    let left_out = ["0.0990", "0.20"];
+    for said in [
+        "不计入",
+        "取大者不计入",
+        "取大者，舍去",
+        "包含于重复性",
+        "重复性已包含分辨力",
+        "小于重复性，忽略不计",
+        "取较大者",
+        "与重复性取其大者",
+        "已并入重复性",
+    ] {
+        is_sound(
+            "sheet.csv",
+            &sheet(&format!("天平分辨力（{said}）"), "", left_out),
+        );
+    }
+    // Two of one quantity: the smaller one, though it has a contribution.
+    is_sound(
+        "sheet.csv",
+        &sheet("天平分辨力（取较大者）", "0.0290 mg", left_out),
+    );
+    // What contains another one is counted, and so is the larger.
+    let counted = ["0.103", "0.21"];
+    for said in ["已包含零点漂移", "与读数误差取较大者"] {
+        let sheet = sheet(&format!("天平分辨力（{said}）"), "0.0290 mg", counted);
+        is_sound(
+            "sheet.csv",
+            &sheet.replace("Ix,天平重复性", "Iy,天平重复性"),
+        );
+    }
+}
+
+/// What the program remarks about readings that alternate states no limits of their quantity.
+#[test]
+fn limits_of_an_autocorrelation_are_none_of_its_quantity() {
+    let sheet = |remark: &str| {
+        format!(
+            "输入量,估计值,标准不确定度,自由度,灵敏系数,分量\nt_d,80.0 ℃,0.0289 ℃,∞,1,0.0289 ℃\n\
+             t_s,79.83 ℃,0.00435 ℃,14,-1,0.00435 ℃\nδ_s,0.03 ℃,0.0577 ℃,∞,-1,0.0577 ℃\n\
+             合成标准不确定度 u_c,,,,,0.0647 ℃\n扩展不确定度 U (k=2),,,,,0.13 ℃\n\n{remark}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet(""));
+    is_sound(
+        "sheet.csv",
+        &sheet(
+            "t_s：相邻读数相关（一阶自相关系数 -0.58，超出 ±0.52；GUM 4.2.7）。读数交替变化，请检查是否存在周期性干扰。",
+        ),
+    );
+}
+
+/// The u of a quantity and of its parts, each rounded by itself.
+#[test]
+fn parts_are_known_by_their_root_as_it_is_printed() {
+    is_sound(
+        "sheet.csv",
+        "输入量,估计值,单位,u,灵敏系数 c,c·u\nV_x,10.208,mV,0.0407,1.000,0.0407\n重复性,,mV,0.0288,,0.0288\n\
+         分辨力,,mV,0.0289,,0.0289\nV_s,10.000,mV,0.0100,-1.000,-0.0100\n合成标准不确定度 u_c,,mV,,,0.0420\n\
+         扩展不确定度 U (k=2),,mV,,,0.084\n",
+    );
+}

@@ -134,6 +134,36 @@ fn limits_of_an_autocorrelation_are_none_of_its_quantity() {
     );
 }
 
+/// Of n readings the column of divisors says how many are behind the value, also where nothing was divided by it.
+#[test]
+fn a_stated_root_that_was_not_taken_is_missed() {
+    let sheet = |name: &str, divisor: u8, u: &str, whole: [&str; 2]| {
+        let ([u_c, expanded], nu) = (whole, divisor - 1);
+        format!(
+            "输入量,不确定度来源,类型,数值,分布,除数,标准不确定度,灵敏系数,不确定度分量,自由度\n\
+             F,{name},A,0.040 kN,正态,√{divisor},{u} kN,1,{u} kN,{nu}\n\
+             F_s,标准测力仪,B,0.24 kN,正态,2,0.12 kN,1,0.12 kN,∞\n合成标准不确定度 uc,,,,,,,,{u_c} kN,\n\
+             包含因子 k,,,,,,,,2,\n扩展不确定度 U,,,,,,,,{expanded} kN,\n"
+        )
+    };
+    for (divisor, u, whole) in [
+        (3, "0.0231", ["0.122", "0.24"]),
+        (5, "0.0179", ["0.121", "0.24"]),
+    ] {
+        for name in ["重复性", "测量重复性"] {
+            is_sound("sheet.csv", &sheet(name, divisor, u, whole));
+            let undivided = sheet(name, divisor, "0.040", ["0.126", "0.25"]);
+            assert_eq!(
+                first("sheet.csv", &undivided),
+                "s-not-mean@F",
+                "{undivided}"
+            );
+        }
+    }
+    let said = sheet("测量重复性（5次平均值）", 5, "0.040", ["0.126", "0.25"]);
+    assert_eq!(first("sheet.csv", &said), "s-not-mean@F");
+}
+
 /// The u of a quantity and of its parts, each rounded by itself.
 #[test]
 fn parts_are_known_by_their_root_as_it_is_printed() {
@@ -143,4 +173,20 @@ fn parts_are_known_by_their_root_as_it_is_printed() {
          分辨力,,mV,0.0289,,0.0289\nV_s,10.000,mV,0.0100,-1.000,-0.0100\n合成标准不确定度 u_c,,mV,,,0.0420\n\
          扩展不确定度 U (k=2),,mV,,,0.084\n",
     );
+}
+
+/// A repeatability that is stated as limits is imported as such.
+#[test]
+fn a_repeatability_between_limits_is_imported_as_limits() {
+    let file = imported(
+        "模型：Δt = td - ts\n\n符号,来源,估计值,半宽,分布,除数,标准不确定度,灵敏系数,分量\n\
+         td,分辨力,80.0 °C,0.05 K,均匀,√3,0.029 K,1,0.029 K\nts,重复性,79.83 °C,0.01 K,均匀,√3,0.0058 K,-1,0.0058 K\n\
+         合成标准不确定度,,,,,,,,0.030 K\n扩展不确定度 U (k=2),,,,,,,,0.059 K\n",
+    );
+    let (_, row) = file.split_once("[input.ts]").expect("a row");
+    assert!(
+        row.contains("half_width = 0.01") && !row.contains("type = \"A\""),
+        "{file}"
+    );
+    assert!(!file.contains("of 3 readings"), "{file}");
 }

@@ -164,6 +164,38 @@ fn a_stated_root_that_was_not_taken_is_missed() {
     assert_eq!(first("sheet.csv", &said), "s-not-mean@F");
 }
 
+/// A certificate's U of one digit that was taken as u: the digits do not tell it from half of it, and the slip is named all the
+/// same.
+#[test]
+fn a_certificate_of_one_digit_that_was_not_divided_is_named() {
+    for certificate in ["0.10", "0.1"] {
+        let sheet = format!(
+            "来源,数值,单位,分布,除数,ui,ci,ci·ui\n标准器证书 U (k=2),{certificate},mV,正态,2,{certificate},1,{certificate}\n\
+             重复性,0.08,mV,正态,1,0.08,1,0.08\nuc,,,,,,,0.13\nU (k=2),,,,,,,0.26\n"
+        );
+        assert!(
+            first("sheet.csv", &sheet).starts_with("cert-undivided@"),
+            "{sheet}"
+        );
+    }
+}
+
+/// A k of 2.02 in the place of 2.03 does not make 0.00029 of 0.00023: what the printed sum does is told, too.
+#[test]
+fn another_k_is_no_explanation_of_what_rounding_does() {
+    let sheet = "项目,不确定度来源,数值,单位,分布,除数,ui,ci,ci·ui,νi\n1,标准砝码,0.0001,g,正态,2,0.0001,1,0.0001,∞\n\
+                 2,重复性,0.00008,g,正态,1,0.00008,1,0.00008,9\n3,分辨力,0.00005,g,均匀,1.732,0.000029,1,0.000029,∞\n\
+                 4,偏载,0.00010,g,均匀,1.732,0.000058,1,0.000058,∞\n合成,,,,,,,,0.000144,\nνeff,,,,,,,,38,\n\
+                 k95,,,,,,,,2.02,\nU95,,,,,,,,0.00029,\n";
+    let (_, sets) = answer("sheet.csv", sheet);
+    assert!(
+        !sets
+            .iter()
+            .any(|set| set == "veff-up" || set == "veff-wrong"),
+        "{sets:?}"
+    );
+}
+
 /// The u of a quantity and of its parts, each rounded by itself.
 #[test]
 fn parts_are_known_by_their_root_as_it_is_printed() {
@@ -172,6 +204,26 @@ fn parts_are_known_by_their_root_as_it_is_printed() {
         "输入量,估计值,单位,u,灵敏系数 c,c·u\nV_x,10.208,mV,0.0407,1.000,0.0407\n重复性,,mV,0.0288,,0.0288\n\
          分辨力,,mV,0.0289,,0.0289\nV_s,10.000,mV,0.0100,-1.000,-0.0100\n合成标准不确定度 u_c,,mV,,,0.0420\n\
          扩展不确定度 U (k=2),,mV,,,0.084\n",
+    );
+}
+
+/// What is computed from readings has more digits than are printed: 0.0168 K is 0.01682 K, of which 0.00434 K and 0.00435 K follow.
+#[test]
+fn figures_follow_from_an_s_with_more_digits_than_are_printed() {
+    let sheet = |s: &str, u: &str| {
+        format!(
+            "输入量,不确定度来源,类型,半宽/U/s,分布,除数,标准不确定度,灵敏系数,|ci|u(xi),自由度\n\
+             t_d,分辨力,B,0.05 ℃,均匀,√3,0.0289 ℃,1.000,0.0289 K,∞\nt_s,重复性,A,{s} ℃,正态,√15,{u} ℃,-1.000,0.00435 K,14\n\
+             δ_s,修正值,B,0.04 K,正态,2,0.0200 K,-1.000,0.0200 K,∞\nδ_s,稳定性,B,0.1 K,均匀,√3,0.0577 K,-1.000,0.0577 K,∞\n\
+             uc,,,,,,,,0.068 K,\nU (k=2),,,,,,,,0.14 K,\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0168", "0.00434"));
+    is_sound("sheet.csv", &sheet("0.0168", "0.004345"));
+    // A digit more is none that rounding leaves open.
+    assert_ne!(
+        answer("sheet.csv", &sheet("0.0168", "0.00444")).0,
+        Verdict::Sound
     );
 }
 

@@ -207,6 +207,33 @@ fn parts_are_known_by_their_root_as_it_is_printed() {
     );
 }
 
+/// A report of the program: rows of an input and of its components, with the shares of both; cells beside each other, which are no
+/// interval; and a result that follows from estimates of more digits than are printed.
+#[test]
+fn rows_and_their_parts_are_held_against_the_rules_once() {
+    let sheet = "# 示波器上升时间\n\n```text\nt_r = sqrt(t_m^2 - t_g^2)\n```\n\n\
+        | 输入量 | 估计值 | 单位 | u | 概率分布 | ν | 灵敏系数 c | c·u | 占比 % |\n|---|---|---|---|---|---|---|---|---|\n\
+        | t_m | 360.8 | ps | 3.61 |  | 803 | 1.019 | 3.68 | 95.6 |\n| &emsp;重复性 |  | ps | 1.01 | t (A) | 5 |  | 1.03 | 7.5 |\n\
+        | &emsp;时基 |  | ps | 3.46 | 矩形 (B) | ∞ |  | 3.53 | 88.0 |\n\
+        | t_g | 70.0 | ps | 4.00 | 正态 (B) | ∞ | -0.1978 | -0.791 | 4.4 |\n\
+        | t_r | 354.0 | ps | 3.76 |  | 879 |  | 3.76 | 100.0 |\n\n\
+        - **估计值**: t_r = 354.0 ps\n- **合成标准不确定度**: u_c = 3.76 ps\n- **有效自由度**: ν_eff = 879\n\
+        - **包含因子**: k = 2（约定值，不注明包含概率）\n- **扩展不确定度**: U = 7.5 ps\n\n\
+        | 不确定度分量 | n | 平均值 | s | 单位 | 最小值 | 最大值 |\n|---|---|---|---|---|---|---|\n\
+        | t_m.重复性 | 6 | 360.8 | 2.48 | ps | 358 | 365 |\n\n\
+        - 自由度小：蒙特卡洛法取 t 分布，其标准差大于 u：`t_m.重复性` 的自由度为 5，标准差为 u 的 1.29 倍。\n";
+    is_sound("report.md", sheet);
+    let claims = understood("report.md", sheet);
+    let audited = audit(&claims[0]);
+    let rules: Vec<u8> = findings(&audited.found)
+        .iter()
+        .map(|one| one.rule)
+        .collect();
+    for rule in [5, 7, 53] {
+        assert!(!rules.contains(&rule), "rule {rule} of {rules:?}");
+    }
+}
+
 /// What is computed from readings has more digits than are printed: 0.0168 K is 0.01682 K, of which 0.00434 K and 0.00435 K follow.
 #[test]
 fn figures_follow_from_an_s_with_more_digits_than_are_printed() {

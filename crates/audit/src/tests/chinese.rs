@@ -254,6 +254,23 @@ fn figures_follow_from_an_s_with_more_digits_than_are_printed() {
     );
 }
 
+/// Why a model was not used is said in the language of the reader.
+#[test]
+fn why_a_model_is_not_used_is_said_in_chinese() {
+    let sheet = "模型：y = a * b\n\n输入量,标准不确定度,灵敏系数,分量\na,0.10 g,1,0.10 g\nb,0.20 g,1,0.20 g\n\
+                 合成标准不确定度,,,0.22 g\n扩展不确定度 U (k=2),,,0.45 g\n";
+    let claims = understood("sheet.csv", sheet);
+    let audited = audit(&claims[0]);
+    let trouble = audited
+        .found
+        .case
+        .trouble
+        .clone()
+        .expect("a model that is not used");
+    let said = trouble.in_language(Language::Chinese);
+    assert!(said.contains("估计值") && !said.contains("model"), "{said}");
+}
+
 /// A repeatability that is stated as limits is imported as such.
 #[test]
 fn a_repeatability_between_limits_is_imported_as_limits() {

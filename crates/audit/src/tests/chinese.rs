@@ -207,6 +207,18 @@ fn parts_are_known_by_their_root_as_it_is_printed() {
     );
 }
 
+/// Of rows of which nothing is stated nothing is recomputed, and nothing is told as 0.
+#[test]
+fn what_is_not_recomputed_has_no_figures() {
+    let sheet = "模型：t_r = sqrt(t_m^2 - t_g^2)\n\n输入量,估计值,分布,灵敏系数,分量\nt_m,360.8 ps,正态,1.02,\n\
+                 t_g,70.0 ps,均匀,-0.9,\n合成标准不确定度,,,,3.7 ps\n扩展不确定度 U (k=2),,,,7.4 ps\n";
+    let claims = understood("sheet.csv", sheet);
+    let audited = audit(&claims[0]);
+    assert_eq!(audited.verdict, Verdict::NotRecomputed);
+    assert!(audited.recomputed().is_none());
+    assert!(audited.found.explanations.is_empty() && audited.found.gaps.is_empty());
+}
+
 /// A report of the program: rows of an input and of its components, with the shares of both; cells beside each other, which are no
 /// interval; and a result that follows from estimates of more digits than are printed.
 #[test]

@@ -11,7 +11,7 @@ use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
 use gumption_format::toml::writing::quoted;
 
-use super::{comment, line_of_unit, number, of_symbol, remark};
+use super::writing::{comment, line_of_unit, number, of_symbol, remark};
 
 /// What a component of an input is called: by its source, with its number where an earlier one is called alike.
 pub(super) fn component_name(claimed: &Claimed, i: usize) -> String {

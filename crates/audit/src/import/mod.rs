@@ -1,6 +1,7 @@
 //! A claimed budget as a budget file: what the sheet states, not what it computes.
 
 mod input;
+mod writing;
 
 use std::fmt::Write as _;
 
@@ -9,10 +10,12 @@ use crate::claim::{Claimed, Coverage, RoundingStated, Stated};
 use crate::units;
 use gumption_core::model::is_reserved;
 use gumption_fault::language::Language;
-use gumption_fault::{Said, say};
+use gumption_fault::say;
 use gumption_format::toml::writing::quoted;
 
 use input::Input;
+pub(crate) use writing::{comment, number};
+use writing::{line_of_unit, of_symbol, remark};
 
 /// A budget file, with remarks as comments, in a language, where the sheet leaves something open.
 pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
@@ -88,13 +91,6 @@ fn has_all(claimed: &Claimed, model: &str) -> bool {
     })
 }
 
-/// The rows of the quantity of a row: in a model several rows of one symbol are reasons to doubt one input.
-fn of_symbol(claimed: &Claimed, i: usize) -> Vec<usize> {
-    let symbol = &claimed.rows[i].symbol;
-    let is_of_it = |j: &usize| *j == i || !symbol.is_empty() && claimed.rows[*j].symbol == *symbol;
-    (0..claimed.rows.len()).filter(is_of_it).collect()
-}
-
 /// What the file calls a row: an input, or one of several components of it.
 fn reason(claimed: &Claimed, names: &[String], i: usize, of_model: bool) -> String {
     match of_symbol(claimed, i).as_slice() {
@@ -111,11 +107,6 @@ pub(crate) fn title(stated: &str, language: Language) -> String {
         true => say!("Imported budget").in_language(language),
         false => stated.to_owned(),
     }
-}
-
-/// What a reader should know, as a comment in a line of its own.
-fn remark(said: Said, language: Language) -> String {
-    format!("# {}\n", comment(&said.in_language(language)))
 }
 
 fn conventions(case: &Case<'_>, language: Language) -> String {
@@ -176,14 +167,6 @@ fn unit_of_result(claimed: &Claimed) -> String {
     }
 }
 
-/// The line of a unit that is known, in symbols.
-fn line_of_unit(unit: &str) -> String {
-    match units::parse(unit) {
-        Some(_) => format!("unit = {}\n", quoted(&units::in_symbols(unit))),
-        None => String::new(),
-    }
-}
-
 /// The unit of contributions, which are differences: two points of the Celsius scale have no sum.
 fn of_difference(unit: String) -> String {
     let known = units::parse(&unit).filter(gumption_core::quantity::Unit::is_point);
@@ -213,23 +196,5 @@ fn identifier(symbol: &str, otherwise: &str) -> String {
     match plain && begins && !is_reserved(symbol) {
         true => symbol.to_string(),
         false => otherwise.to_string(),
-    }
-}
-
-pub(crate) fn comment(text: &str) -> String {
-    let plain: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    plain.trim_matches([' ', ';']).to_string()
-}
-
-/// A number as it was typed: no digits that a product of doubles adds.
-pub(crate) fn number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.12e}").parse().unwrap_or(x);
-    if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
-        format!("{rounded:e}")
-    } else {
-        format!("{rounded}")
     }
 }

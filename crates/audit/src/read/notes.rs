@@ -277,7 +277,10 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
             .rows
             .iter()
             .any(|other| !other.symbol.is_empty() && has_symbol(text, &other.symbol));
+    // Under which conditions it was calibrated is said of the whole.
+    let is_condition = has(&row.symbol.to_lowercase(), &["condition", "环境条件"]);
     let is_missing = !about_row
+        && !is_condition
         && !row.symbol.is_empty()
         && claimed
             .model

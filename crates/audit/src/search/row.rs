@@ -1,7 +1,7 @@
 //! Slips that the figures of a row show.
 
 use crate::calculate::{Case, Line};
-use crate::claim::{Row, Stated};
+use crate::claim::{RoundingStated, Row, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change, Group};
 
@@ -350,6 +350,8 @@ pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
     let of_kind = match act.slip.id {
         "veff-wrong" | "c-wrong" | "hard-coded" => 6,
         "prefix" | "percent-ppm" | "U-unit" => 4,
+        // Without a rule for rounding there is none to break.
+        "rounded-down" if case.claimed.rounding == RoundingStated::Unstated => 4,
         "input-transposed" | "digits-transposed" => 5,
         "range-C" | "intermediates-rounded" => 3,
         "cert-k-2" | "triangle" | "counted-twice" => 2,

@@ -298,3 +298,48 @@ fn a_repeatability_between_limits_is_imported_as_limits() {
     );
     assert!(!file.contains("of 3 readings"), "{file}");
 }
+
+/// Several rows of one symbol are components of one input, and the model stays.
+#[test]
+fn rows_of_one_symbol_are_imported_as_components() {
+    let sheet = "模型：Δt = td - ts\n\n符号,来源,估计值,半宽,分布,除数,标准不确定度,灵敏系数,分量\n\
+        td,分辨力,80.0 °C,0.05 K,均匀,√3,0.029 K,1,0.029 K\nts,重复性,79.83 °C,0.01 K,均匀,√3,0.0058 K,-1,0.0058 K\n\
+        ts,\"证书 U=0.04 K, k=2\",,0.04 K,正态,2,0.020 K,-1,0.020 K\n合成标准不确定度,,,,,,,,0.036 K\n\
+        扩展不确定度 U (k=2),,,,,,,,0.071 K\n";
+    is_sound("sheet.csv", sheet);
+    let file = imported(sheet);
+    assert!(
+        file.contains("model = \"td - ts\"") && file.contains("value = 79.83"),
+        "{file}"
+    );
+    assert_eq!(file.matches("[input.ts]").count(), 1, "{file}");
+    assert!(
+        file.contains("{ name = \"重复性\", half_width = 0.01 }"),
+        "{file}"
+    );
+    assert!(
+        file.contains("certificate = { U = 0.04, k = 2.0 }"),
+        "{file}"
+    );
+}
+
+/// `uc = 0.0033`, `U = 2×0.0033 = 0.0066`: u_c was rounded before it was multiplied, and no rule of rounding is stated.
+#[test]
+fn a_rounded_u_c_is_named_before_a_rule_that_nobody_states() {
+    let text = "压力表示值误差的不确定度评定\n\n1 测量模型\nδ = p − ps\n\n2 标准不确定度分量\n\
+        2.1 测量重复性引入的标准不确定度 u1\n对 10 次测量，s = 0.0048 MPa，取 10 次平均值，u1 = 0.0048/√10 = 0.0015 MPa\n\
+        2.2 估读引入的标准不确定度 u2\n分度值 0.05 MPa，按 1/10 估读，半宽 0.005 MPa，均匀分布，u2 = 0.005/√3 = 0.0029 MPa\n\
+        2.3 标准器引入的标准不确定度 u3\n最大允许误差 ±0.00125 MPa，均匀分布，u3 = 0.00125/√3 = 0.00072 MPa\n\n\
+        3 合成标准不确定度\nuc = √(u1²+u2²+u3²) = 0.0033 MPa\n\n4 扩展不确定度\nU = k·uc = 2×0.0033 = 0.0066 MPa (k=2)\n";
+    assert_eq!(first("text.txt", text), "intermediates-rounded");
+}
+
+/// The conditions of a calibration have a U of their own, and are no input.
+#[test]
+fn conditions_are_no_inputs() {
+    is_sound(
+        "sheet.csv",
+        "环境条件,\"环境温度：23.0 °C，U = 0.5 K，k = 2\"\n\n输入量,标准不确定度,灵敏系数,分量\nV_x,0.0407 mV,1,0.0407 mV\n\
+         V_s,0.0100 mV,-1,0.0100 mV\n合成标准不确定度 u_c,,,0.0420 mV\n扩展不确定度 U (k=2),,,0.084 mV\n",
+    );
+}

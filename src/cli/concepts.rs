@@ -127,7 +127,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "outliers",
-        aliases: &["outlier", "grubbs", "dixon", "outlier_test", "离群值", "粗大误差"],
+        aliases: &["outlier", "grubbs", "dixon", "outlier_test", "离群值", "粗大误差", "格拉布斯", "狄克逊"],
         title: "readings that do not belong to the others",
         text: "outlier_test beside `readings` examines the most outlying of them, on either side, and reports. It never removes: that is for somebody who knows what happened when the reading was taken.\n\n\"grubbs\": largest deviation from the mean in units of s, two-sided at the level `significance` (0.05); three readings or more (ISO 5725-2, GB/T 4883). \"dixon\": gap beside the outermost reading over the range: r10 for 3 to 7 readings, r11 to 10, r21 to 13, r22 to 30; two-sided, critical values from the exact distribution. \"dixon-q\": r10, gap over the whole range, for 3 to 30 readings, as in the Q test of chemists. \"4d\": four mean deviations of the other readings. \"3s\": three standard deviations, for 11 readings or more, because fewer cannot reach that far.\n\nFigures for claims: V.outlier.place, value, statistic, critical, p.",
     },
@@ -175,7 +175,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "type-a",
-        aliases: &["standard uncertainty", "standard deviation", "pooled standard deviation", "repeatability", "autocorrelation", "type a evaluation", "A类", "标准不确定度", "标准偏差", "重复性"],
+        aliases: &["standard uncertainty", "standard deviation", "pooled standard deviation", "repeatability", "autocorrelation", "type a evaluation", "bessel", "A类", "A类评定", "A类评定方法", "贝塞尔", "贝塞尔公式", "标准不确定度", "标准偏差", "重复性"],
         title: "standard uncertainty from readings (GUM 4.2)",
         text: "n readings with the experimental standard deviation s: u = s/√n for their mean, with ν = n − 1. of = \"single\" takes u = s, for one later reading; of = 3 takes s/√3, for the mean of three. `pooled` replaces s and its ν by those of earlier work. `type = \"A\"` says of a stated `u` that it was evaluated from readings.\n\nReadings that follow each other may be correlated (GUM 4.2.7). The report gives the lag-1 coefficient of ten readings or more, with a remark where independent readings would hardly show it (beyond 2/√n). `autocorrelated` divides by the effective number of independent readings, n/F with F = 1 + 2 Σ (1 − k/n) ρ_k: the mean takes up F·σ²/n of every product of deviations, so that ρ_k is estimated as (n − F)·r_k/(n − k) + F/n, and the sum ends with the first lag of four correlation times, 4·F/2 (Sokal 1997), or with n/4. Then u = σ/√n_eff with σ² = Σ (x − x̄)²/(n − F), and ν = n_eff − 1 at most: F is an estimate, which scatters by √(2(2W + 1)/n) of itself when W lags are summed (Madras and Sokal 1988), and leaves ν = n/(2W + 1) where it is well above 1, more where it is cut off at 1.\n\nAll sums are formed with twice the digits of a double, and a reading is the decimal that is written: readings that agree in their first twelve digits lose nothing. See `gumption explain anova` for readings in groups and `gumption explain outliers` for tests.\n\nIn Monte Carlo the mean of n readings has a scaled and shifted t distribution (JCGM 101, 6.4.9), whose standard deviation is √(ν/(ν − 2)) times s/√n: the two methods therefore differ a little for few readings. t_scale = \"standard-deviation\" in [conventions] gives the t distribution the standard deviation s/√n instead.",
     },

@@ -49,6 +49,40 @@ fn certificate(budget: &str, folder: &Path, ending: &str) -> PathBuf {
     file
 }
 
+/// ISO/IEC 17025, 7.8.2.1 a and l: what it is, and what its results relate to; and no item of the template is certified
+/// without a word.
+#[test]
+fn a_certificate_says_that_it_is_one() {
+    let folder = folder("titled");
+    let file = certificate(BUDGETS[3], &folder, "md");
+    let text = std::fs::read_to_string(&file).expect("a certificate");
+    assert!(
+        text.starts_with("# Calibration certificate / 校准证书\n"),
+        "{text}"
+    );
+    assert!(text.contains("**Calibration / 校准项目**: "), "{text}");
+    assert!(
+        text.contains("The results relate only to the item"),
+        "{text}"
+    );
+    let data = folder.join("laboratory.toml");
+    let budget = root().join(format!("budgets/{}.toml", BUDGETS[3]));
+    let data = data.to_str().expect("a path");
+    let said = run(&["eval", "--certificate", data], &[&budget]);
+    assert!(said.contains("`item`"), "{said}");
+    let wrong = folder.join("wrong.toml");
+    let template = std::fs::read_to_string(data).expect("the template");
+    std::fs::write(&wrong, template.replace("[[item]]", "[item]")).expect("a file");
+    let refused = program()
+        .arg("eval")
+        .arg("--certificate")
+        .arg(&wrong)
+        .arg(&budget)
+        .output();
+    let refused = String::from_utf8_lossy(&refused.expect("the program runs").stderr).into_owned();
+    assert!(refused.contains("1 error"), "{refused}");
+}
+
 #[test]
 fn digital_certificates_are_valid() {
     let folder = folder("digital");
@@ -575,7 +609,7 @@ fn names_of_the_template_do_not_go_out_unnoticed() {
         std::fs::write(&template, text).expect("a file");
         let said = note(&template);
         assert!(
-            said.contains("`customer`, `laboratory`, `person`"),
+            said.contains("`customer`, `item`, `laboratory`, `person`"),
             "{said}"
         );
     }

@@ -85,6 +85,8 @@ pub struct Row {
     pub value: Option<Printed>,
     /// Unit of the estimate and of what is stated of it.
     pub unit: String,
+    /// What stands behind one of its figures, in the place of a unit, and is none that is known.
+    pub unread_unit: Option<Unplaced>,
     /// Everything that the sheet says of it in words: name, remarks, notes.
     pub words: String,
     /// What is known of it.

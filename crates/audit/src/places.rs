@@ -23,7 +23,11 @@ impl Claimed {
         }
         let stale = self.stale.iter_mut().map(|one| &mut one.at);
         let understood = self.understood.iter_mut().map(|one| &mut one.at);
-        let unplaced = self.unplaced.iter_mut().map(|one| &mut one.at);
+        let units = self
+            .rows
+            .iter_mut()
+            .filter_map(|row| row.unread_unit.as_mut());
+        let unplaced = self.unplaced.iter_mut().chain(units).map(|one| &mut one.at);
         for at in stale.chain(understood).chain(unplaced) {
             *at = to(*at);
         }

@@ -1,8 +1,10 @@
 //! Units of a sheet: factors between them, where both are known.
 
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use gumption_core::quantity::{Unit, UnitTable};
+use gumption_core::letters::is_chinese;
+use gumption_core::quantity::{Unit, UnitTable, unit_of_chinese};
 
 use crate::printed::Printed;
 
@@ -18,8 +20,28 @@ pub(crate) fn parse(text: &str) -> Option<Unit> {
     if text.is_empty() || text.len() > 24 || text.starts_with('/') {
         return None;
     }
+    let text = in_symbols(text);
     let written = with_powers(&text.replace("Ω", "ohm").replace('⋅', "·"))?;
-    TABLE.parse(&written).or_else(|_| TABLE.parse(text)).ok()
+    TABLE.parse(&written).or_else(|_| TABLE.parse(&text)).ok()
+}
+
+/// A unit as a sheet writes it, in symbols: `kPa` of 千帕.
+pub(crate) fn in_symbols(text: &str) -> Cow<'_, str> {
+    match unit_of_chinese(text) {
+        Some(symbols) => Cow::Owned(symbols),
+        None => Cow::Borrowed(text),
+    }
+}
+
+/// The Chinese name of a unit at the beginning of a text. One character is a name where no other one follows: 分度 is no
+/// minute.
+pub(crate) fn chinese_name(text: &str) -> Option<&str> {
+    let ends = text.char_indices().take_while(|(_, c)| is_chinese(*c));
+    let ends: Vec<usize> = ends.map(|(at, c)| at + c.len_utf8()).collect();
+    let names = ends.iter().enumerate().rev();
+    let mut names = names.filter(|(i, _)| *i > 0 || ends.len() == 1);
+    let name = names.find(|(_, end)| unit_of_chinese(&text[..**end]).is_some());
+    name.map(|(_, end)| &text[..*end])
 }
 
 /// `kg/m3` as sheets write it: a power behind a known unit. A whole text of one letter and a digit is the name of a
@@ -125,6 +147,23 @@ mod tests {
             assert_eq!(power_of_ten(text), Some(1e-6), "{text}");
         }
         assert!(power_of_ten("10").is_none() && power_of_ten("m^-6").is_none());
+    }
+
+    #[test]
+    fn chinese_names_are_units() {
+        assert_eq!(factor("千帕", "kPa"), Some(1.0));
+        assert_eq!(factor("千帕", "帕"), Some(1e3));
+        assert_eq!(factor("牛·米", "N·m"), Some(1.0));
+        for (text, name) in [
+            ("千帕，均匀分布", Some("千帕")),
+            ("千帕的矩形分布", Some("千帕")),
+            ("帕", Some("帕")),
+            ("分度", None),
+            ("时有效", None),
+            ("次", None),
+        ] {
+            assert_eq!(chinese_name(text), name, "{text}");
+        }
     }
 
     #[test]

@@ -34,7 +34,9 @@ pub struct Audit<'a> {
 impl Audit<'_> {
     /// The right figures, as far as the sheet states what they need.
     pub fn recomputed(&self) -> Option<Figures> {
-        self.missing.is_empty().then_some(self.found.right)
+        // A u_c of 0 is that of rows of which nothing is stated.
+        let is_known = self.missing.is_empty() && self.found.right.u_c > 0.0;
+        is_known.then_some(self.found.right)
     }
 }
 
@@ -42,7 +44,8 @@ impl Audit<'_> {
 pub fn audit(claimed: &Claimed) -> Audit<'_> {
     let mut found = search(claimed);
     let missing = missing(&found);
-    if !missing.is_empty() {
+    let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
+    if !missing.is_empty() || nothing {
         // What sums of several quantities come to explains nothing, and departs from nothing.
         found.explanations.clear();
         found.gaps.clear();
@@ -55,7 +58,6 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
         }
     }
     let footer = &claimed.footer;
-    let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
     let unclaimed = footer.u_c.is_none() && footer.expanded.is_none();
     let silent = found.gaps.is_empty() && found.explanations.is_empty();
     let is_open = nothing || unclaimed && (silent || claimed.computes_nothing());

@@ -15,6 +15,11 @@ pub fn is_wide(c: char) -> bool {
     narrow(c) != c
 }
 
+/// Whether it is a Chinese character.
+pub fn is_chinese(c: char) -> bool {
+    ('\u{4e00}'..='\u{9fff}').contains(&c)
+}
+
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 /// The plain form of a raised digit or sign; nothing of another character.

@@ -6,6 +6,7 @@
 //! up to the whole change. Of many edits each is made alone, and what their changes leave is said to be left.
 
 use gumption_fault::Rejection;
+use serde::Deserialize;
 use toml::{Table, Value};
 
 use crate::budget::Loaded;
@@ -107,6 +108,13 @@ pub enum Incomparable {
     Unreadable,
 }
 
+/// The entries of a budget file, read as files of budgets are: names of quantities in all letters need no quotes.
+fn table(text: &str) -> Option<Table> {
+    let (table, errors) = gumption_format::toml::document(text, &[]);
+    let read = || Table::deserialize(toml::de::Deserializer::from(table)).ok();
+    errors.is_empty().then(read).flatten()
+}
+
 /// One measurand of an evaluated version: name, unit, figures.
 type Row = (String, String, Figures);
 
@@ -119,11 +127,9 @@ pub fn versions(
     after: &str,
     load: impl Fn(&str) -> Result<Loaded, Rejection>,
 ) -> Result<Versions, Incomparable> {
-    let tables = before
-        .parse::<Table>()
-        .ok()
-        .zip(after.parse::<Table>().ok());
-    let (old, new) = tables.ok_or(Incomparable::Unreadable)?;
+    let (old, new) = table(before)
+        .zip(table(after))
+        .ok_or(Incomparable::Unreadable)?;
     let first = figures(before, &load)?;
     let last = figures(after, &load)?;
     let mixed = |made: &dyn Fn(&str) -> bool| -> Option<Vec<Row>> {
@@ -331,6 +337,20 @@ mod tests {
         assert!((changed.by_edit[0].expanded - a).abs() < 1e-12);
         assert!((changed.after.expanded - k * 13.0).abs() < 1e-12);
         assert!(changed.left().expanded.abs() < 1e-12 && changed.left().estimate == 0.0);
+    }
+
+    /// `[input.电压]` is read without quotes, as in every budget file.
+    #[test]
+    fn names_in_all_letters_need_no_quotes() {
+        let own = |u: &str| {
+            format!(
+                "title = \"T\"\n[measurand.Y]\nmodel = \"电压 + δ\"\nunit = \"V\"\n[input.电压]\nvalue = 2\nunit = \"V\"\n\
+                 u = {u}\n[input.δ]\nvalue = 3\nunit = \"V\"\nu = 4\n"
+            )
+        };
+        let found = versions(&own("3"), &own("12"), load).expect("two budgets");
+        assert_eq!(found.edits, [["input.电压"]]);
+        assert!(found.measurands[0].left().expanded.abs() < 1e-12);
     }
 
     /// A new input and the formula that uses it are one edit.

@@ -1,5 +1,6 @@
 //! What the readings say of themselves: statistics, analyses of variance, tests for outliers.
 
+use gumption_core::quantity::Decimal;
 use gumption_core::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
 use gumption_fault::say;
 use gumption_gum::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
@@ -88,17 +89,27 @@ fn row(analysis: &Analysis, found: &Statistics) -> Vec<Cell> {
         true => 0.0,
         false => found.mean,
     };
+    let [least, greatest] = alike([found.min, found.max]);
     vec![
         analysis.name.clone().into(),
         found.n.to_string().into(),
         aligned(mean, scale, 2).into(),
         significant(found.s, TABLE_DIGITS).into(),
         symbol(&analysis.unit).into(),
-        exact(found.min).into(),
-        exact(found.max).into(),
+        least.into(),
+        greatest.into(),
         coefficient(found.lag1).into(),
         found.effective.map_or(Cell::Empty, |n| freedom(n).into()),
     ]
+}
+
+/// Two readings, each with the decimals of both: 150.00 beside 150.02.
+fn alike(readings: [f64; 2]) -> [String; 2] {
+    let places = readings.map(|x| Decimal::from_f64(x).place());
+    match places.into_iter().flatten().min() {
+        Some(place) if place < 0 => readings.map(|x| print(&at_place(x, place))),
+        _ => readings.map(exact),
+    }
 }
 
 fn coefficient(r: f64) -> String {
@@ -340,5 +351,17 @@ pub(super) fn codes(found: &Finding) -> (&'static str, Vec<&'static str>) {
                 "none"
             }],
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_and_greatest_have_the_same_decimals() {
+        assert_eq!(alike([150.0, 150.02]), ["150.00", "150.02"]);
+        assert_eq!(alike([1.0, 1.0003]), ["1.0000", "1.0003"]);
+        assert_eq!(alike([358.0, 365.0]), ["358", "365"]);
     }
 }

@@ -49,6 +49,7 @@ const WORDS: &[(&str, &str)] = &[
     ("specification a", "技术指标 a"),
     ("sample of ", "样本，容量 "),
     ("pooled s", "合并样本标准差 s"),
+    ("stated s", "给出的 s"),
     ("limits ", "界限 "),
     ("shape = ", "形状参数 = "),
     ("scale = ", "尺度参数 = "),
@@ -129,6 +130,7 @@ mod tests {
         assert_eq!(zh("a/√3, a = 0.5"), "a/√3, a = 0.5");
         assert_eq!(zh("u as stated"), "直接给出 u");
         assert_eq!(zh("s/√n, pooled s = 0.1"), "s/√n, 合并样本标准差 s = 0.1");
+        assert_eq!(zh("s/√4, stated s = 0.1"), "s/√4, 给出的 s = 0.1");
         assert_eq!(
             zh("√(a²/3 + d²/9), a = 1, d = 0.1 (GUM: u as stated)"),
             "√(a²/3 + d²/9), a = 1, d = 0.1 (GUM 法：按给出的 u)"

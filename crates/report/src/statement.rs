@@ -4,10 +4,10 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use gumption_gum::budget::{Conventions, StatementForm, profile_named};
 use gumption_gum::propagate::{
-    Basis, CoverageBasis, Freedom, Gum, IntervalKind, Reason, ReportedUncertainty,
+    Basis, CoverageBasis, FindingKind, Freedom, Gum, IntervalKind, Reason, ReportedUncertainty,
     StatedProbability,
 };
 
@@ -71,6 +71,7 @@ fn of_measurand(report: &Report<'_>, measurand: usize) -> Option<String> {
         gum: &report.evaluation.results[measurand].gum,
         trials: grouped(report.evaluation.run.as_ref().map_or(0, |run| run.trials)),
         failed: failed(report, measurand),
+        is_slow: is_slow(report, measurand),
         conventions: &report.budget.conventions,
         language: report.language,
     };
@@ -82,6 +83,25 @@ fn failed(report: &Report<'_>, measurand: usize) -> u64 {
     found.map_or(0, |found| found.failed)
 }
 
+/// Whether the distribution has a standard deviation, which the trials do not settle on.
+fn is_slow(report: &Report<'_>, measurand: usize) -> bool {
+    let mut findings = report.evaluation.findings.iter();
+    findings.any(|finding| match &finding.kind {
+        FindingKind::MomentsMissing { reason } => {
+            finding.measurand == Some(measurand) && reason.leave_a_deviation()
+        }
+        _ => false,
+    })
+}
+
+/// How y and U are stated: without a probability, the coverage factor has to be beside U.
+pub(super) fn form(conventions: &Conventions) -> StatementForm {
+    match conventions.state_probability {
+        true => conventions.statement,
+        false => StatementForm::Apart,
+    }
+}
+
 /// What a sentence about one measurand needs.
 struct Subject<'a> {
     figures: Figures<'a>,
@@ -90,6 +110,8 @@ struct Subject<'a> {
     trials: String,
     /// Those of them in which the model has no value.
     failed: u64,
+    /// Whether its standard deviation exists, and is not known by the trials.
+    is_slow: bool,
     conventions: &'a Conventions,
     language: Language,
 }
@@ -127,12 +149,8 @@ impl Subject<'_> {
         }
     }
 
-    /// Without a probability, the coverage factor has to be beside U.
     fn form(&self) -> StatementForm {
-        match self.conventions.state_probability {
-            true => self.conventions.statement,
-            false => StatementForm::Apart,
-        }
+        form(self.conventions)
     }
 
     /// U with its unit.
@@ -275,6 +293,15 @@ impl Subject<'_> {
         }
     }
 
+    /// Why there is no standard uncertainty: a t-distribution has one of u·√(ν/(ν − 2)) for ν > 2 (JCGM 101, 6.4.9.4), which
+    /// trials with so few degrees of freedom do not show.
+    fn why_no_deviation(&self) -> Said {
+        match self.is_slow {
+            true => say!("the standard deviation of the trials does not converge"),
+            false => say!("the distribution of the result has no standard deviation"),
+        }
+    }
+
     /// y and U = half the width of the interval where the distribution has no standard deviation, hence
     /// no k: a few readings.
     fn half_interval_alone(&self) -> String {
@@ -302,7 +329,8 @@ impl Subject<'_> {
                 format!("{name} = {y}；U_{index} = {expanded}。扩展不确定度为")
             }
         };
-        say!("{head} half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials).{which} No standard uncertainty and no coverage factor are stated, because the distribution of the result has no standard deviation.").in_language(self.language)
+        let why = self.why_no_deviation();
+        say!("{head} half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials).{which} No standard uncertainty and no coverage factor are stated, because {why}.").in_language(self.language)
     }
 
     /// y and U = k·u with the u of Monte Carlo, where k is that of the profile.
@@ -356,6 +384,7 @@ impl Subject<'_> {
             true => self.language.pick("median", "中位数"),
             false => self.language.pick("estimate", "估计值"),
         };
+        let why = self.why_no_deviation().in_language(self.language);
         match (self.figures.reported.u, self.language) {
             (Some(_), Language::English) => format!(
                 "{name}: {what} {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method (JCGM 101) with {trials} trials, against which the result of the GUM method could not be validated."
@@ -364,10 +393,10 @@ impl Subject<'_> {
                 "{name}：{what} {value}，标准不确定度 u = {u}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}。以上结果由蒙特卡洛法（JJF 1059.2，{trials} 次试验）得到，GUM 法的结果未通过其验证。"
             ),
             (None, Language::English) => format!(
-                "{name}: {what} {value}, {which} {p} coverage interval from {low} to {high}, found by the Monte Carlo method with {trials} trials. No standard uncertainty is stated, because the distribution of the result has none."
+                "{name}: {what} {value}, {which} {p} coverage interval from {low} to {high}, found by the Monte Carlo method with {trials} trials. No standard uncertainty is stated, because {why}."
             ),
             (None, Language::Chinese) => format!(
-                "{name}：{what} {value}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}，由蒙特卡洛法（{trials} 次试验）得到。该分布的标准差不存在，故不给出标准不确定度。"
+                "{name}：{what} {value}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}，由蒙特卡洛法（{trials} 次试验）得到。{why}，故不给出标准不确定度。"
             ),
         }
     }

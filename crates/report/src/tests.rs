@@ -7,6 +7,7 @@ use super::fixtures::{self, Case};
 use super::{Language, Report, evaluation, evaluation_schema, evaluations, statement};
 use gumption_format::render::{self, Page};
 use gumption_gum::budget::{CoverageRule, StatementForm};
+use gumption_gum::propagate::{Consequence, FindingKind, MissingMoments, Side};
 
 fn text(report: &Report<'_>, page: Page) -> String {
     render::text::text(&evaluation(report), page)
@@ -138,6 +139,32 @@ fn a_fixed_factor_without_probability_stays_with_monte_carlo() {
     let sentence = &statement(&case.report(Language::Chinese))[0];
     assert!(sentence.contains("，k = 2。"), "{sentence}");
     assert!(!sentence.contains("k_95"), "{sentence}");
+}
+
+/// A t-distribution of 2.7 degrees of freedom has a standard deviation (JCGM 101, 6.4.9.4), which trials do not settle on.
+#[test]
+fn a_standard_deviation_that_exists_is_not_denied() {
+    let mut case = fixtures::without_moments();
+    assert!(statement(&case.report(Language::Chinese))[0].contains("标准差不存在"));
+    for finding in &mut case.evaluation.findings {
+        if let FindingKind::MomentsMissing { reason } = &mut finding.kind {
+            *reason = MissingMoments::Tail {
+                side: Side::Upper,
+                index: 2.7,
+                consequence: Consequence::SlowDeviation,
+            };
+        }
+    }
+    let english = &statement(&case.report(Language::English))[0];
+    assert!(
+        english.contains("does not converge") && !english.contains("has no"),
+        "{english}"
+    );
+    let chinese = &statement(&case.report(Language::Chinese))[0];
+    assert!(
+        chinese.contains("不收敛") && !chinese.contains("不存在"),
+        "{chinese}"
+    );
 }
 
 /// U and y end at the same decimal place, whatever the profile.

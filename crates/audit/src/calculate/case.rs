@@ -1,6 +1,7 @@
 //! What is known, computed once: the right calculation of a claim.
 
 use gumption_core::quantity::Unit;
+use gumption_fault::Said;
 
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE, Row, Stated};
 use crate::printed::Printed;
@@ -30,7 +31,7 @@ pub struct Case<'a> {
     /// The terms of second order in the variance, by that of first order (JCGM 100, 5.1.2, note).
     pub second_order: Option<f64>,
     /// How the estimates enter the model, text by text: why it was not understood.
-    pub trouble: Option<String>,
+    pub trouble: Option<Said>,
 }
 
 impl<'a> Case<'a> {

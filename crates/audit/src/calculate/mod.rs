@@ -22,4 +22,4 @@ pub use calculation::{
 pub use case::{Case, factors};
 pub use correlations::are_possible;
 pub(crate) use known::shape_of;
-pub(crate) use model::{formula, unit_of_y};
+pub(crate) use model::{estimate, formula, unit_of_y};

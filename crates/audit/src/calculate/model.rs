@@ -3,6 +3,9 @@
 use gumption_core::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
 use gumption_core::quantity::{Unit, UnitTable};
 
+use gumption_fault::language::Language;
+use gumption_fault::{Said, say};
+
 use crate::claim::{Claimed, Row};
 use crate::printed::Printed;
 use crate::units;
@@ -15,7 +18,7 @@ pub(crate) fn unit_of_y(claimed: &Claimed) -> &str {
 
 /// The estimate of the quantity of a row: several rows of one symbol are reasons to doubt one input, and its estimate
 /// stands in one of them.
-pub(super) fn estimate<'a>(claimed: &'a Claimed, row: &'a Row) -> Option<&'a Printed> {
+pub(crate) fn estimate<'a>(claimed: &'a Claimed, row: &'a Row) -> Option<&'a Printed> {
     let of_symbol = || {
         let mut rows = claimed.rows.iter().filter(|_| !row.symbol.is_empty());
         rows.find_map(|other| other.value.as_ref().filter(|_| other.symbol == row.symbol))
@@ -57,7 +60,7 @@ pub(super) struct Differentiated {
 }
 
 /// Value and derivatives of the model at the estimates. `None` without a model.
-pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>, String> {
+pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>, Said> {
     let Some(text) = &claimed.model else {
         return Ok(None);
     };
@@ -155,7 +158,9 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         }
     };
     if (0..rows.len()).all(|i| !used[i] || unknown[i]) {
-        return Err("the model names inputs whose estimates the sheet does not state".into());
+        return Err(say!(
+            "the model names inputs whose estimates the sheet does not state"
+        ));
     }
     // All reasons to doubt an input together.
     let mut doubt = vec![0.0; rows.len()];
@@ -306,7 +311,7 @@ fn in_degrees(formula: &str) -> String {
     out + rest
 }
 
-fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Result<Model, String> {
+fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Result<Model, Said> {
     let symbols: Vec<Symbol> = units
         .iter()
         .enumerate()
@@ -332,7 +337,7 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
     compile(&request).map_err(|faults| {
         faults
             .first()
-            .map_or(String::new(), |fault| fault.fault.message.to_string())
+            .map_or_else(Said::default, |fault| fault.fault.message.clone())
     })
 }
 
@@ -348,11 +353,14 @@ fn renamed(text: &str, claimed: &Claimed) -> String {
 }
 
 /// A message about such a formula, with the symbols of the sheet.
-fn as_written(message: String, claimed: &Claimed) -> String {
-    let rows = claimed.rows.iter().enumerate();
-    rows.fold(message, |message, (i, row)| {
-        message.replace(&numbered(i), &row.symbol)
-    })
+fn as_written(message: Said, claimed: &Claimed) -> Said {
+    let said = |language: Language| {
+        let rows = claimed.rows.iter().enumerate();
+        rows.fold(message.in_language(language), |text, (i, row)| {
+            text.replace(&numbered(i), &row.symbol)
+        })
+    };
+    Said::pair(said(Language::English), said(Language::Chinese))
 }
 
 /// The formula in the model language, its symbols by these names.

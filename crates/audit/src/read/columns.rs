@@ -1,5 +1,7 @@
 //! What a column is, by the words of its head.
 
+use gumption_core::letters::is_chinese;
+
 use super::words::compact;
 
 /// What a column holds.
@@ -199,10 +201,6 @@ fn in_two_languages(name: &str) -> Option<Role> {
     let one = of(name[..at].trim_end_matches(between))?;
     let (other, _) = role(name[at..].trim_start_matches(between))?;
     (one == other).then_some(one)
-}
-
-fn is_chinese(c: char) -> bool {
-    ('\u{4e00}'..='\u{9fff}').contains(&c)
 }
 
 fn of(head: &str) -> Option<Role> {

@@ -6,6 +6,7 @@ use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE};
 use crate::printed::{Printed, leading};
 
 use super::factor::is_factor;
+use super::family::NU_EFF;
 use super::footer::{self, Whole};
 use super::words::{figure_after, has, named_probability};
 
@@ -60,10 +61,7 @@ pub fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     if claimed.coverage != Coverage::Unstated {
         return false;
     }
-    let by_freedom = has(
-        lower,
-        &["effective degrees", "ν_eff", "veff", "νeff", "有效自由度"],
-    );
+    let by_freedom = has(lower, &["effective degrees", "有效自由度"]) || has(lower, NU_EFF);
     // `ν_eff = 35, k = 2, U = 0.05` claims figures and states no rule.
     let statement = footer::states_figures(lower);
     let regardless = has(lower, &["regardless", "k = 2 is used", "不论"]);

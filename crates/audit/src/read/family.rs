@@ -56,6 +56,16 @@ pub(crate) const FIT: &[&str] = &[
 pub(crate) const FULL_SCALE: &[&str] = &["full scale", "full-scale", "fs =", "f.s.", "fs", "满量程", "满度", "量程"];
 /// What says that a row is in another one.
 #[rustfmt::skip]
-pub(crate) const CONTAINED: &[&str] = &["contained in", "included in", "已包含", "包含在", "已含", "已计入"];
+pub(crate) const CONTAINED: &[&str] = &["contained in", "included in", "已包含", "包含在", "包含于", "含于", "并入", "已含", "已计入"];
 #[rustfmt::skip]
 pub(crate) const ARCSINE: &[&str] = &["arcsin", "u-shape", "u shape", "反正弦", "u形"];
+/// How ν_eff is written.
+#[rustfmt::skip]
+pub(crate) const NU_EFF: &[&str] = &["ν_eff", "νeff", "v_eff", "veff", "nu_eff", "ν eff", "νₑff", "ν_{eff}"];
+/// How k is written.
+pub(crate) const FACTOR: &[&str] = &["k", "kp", "k_p", "k95", "k_95", "k99", "k_99"];
+/// What calls a figure that of a mean, or the value one.
+pub(crate) const AVERAGE: &[&str] = &["mean", "average", "平均", "均值", "mittelwert"];
+/// What calls a calibration and measurement capability.
+#[rustfmt::skip]
+pub(crate) const CMC: &[&str] = &["cmc", "校准和测量能力", "校准测量能力", "best measurement capability", "最佳测量能力"];

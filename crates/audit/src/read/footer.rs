@@ -1,9 +1,12 @@
 //! Claimed figures of the whole: lines below a table, and sentences.
 
+use gumption_core::letters::is_chinese;
+
 use crate::claim::Footer;
 use crate::printed::{Place, Printed, leading};
 
 use super::factor::{is_factor, is_fixed};
+use super::family::{FACTOR, NU_EFF};
 use super::statement;
 use super::words::{compact, find, has};
 
@@ -41,7 +44,8 @@ impl Whole {
 /// Words that stand for a figure of the whole; longer ones first where one is in another.
 #[rustfmt::skip]
 const WORDS: &[(Whole, &[&str])] = &[
-    (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
+    (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "deg. of freedom (eff"]),
+    (Whole::Freedom, NU_EFF),
     (Whole::Factor, &["coverage factor", "erweiterungsfaktor", "facteur d'élargissement", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
     (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded", "erweitert"]),
     (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "合成uc", "合成u_c", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "root sum square", "root-sum-square", "rss", "comb. std", "comb. unc", "gesamtstandard", "beigeordnete standard", "combined", "kombiniert", "total standard uncertainty"]),
@@ -346,7 +350,7 @@ pub fn divides_by_factor(lower: &str) -> bool {
 
 /// The factor of `k = t95(νeff) = 2.36`, which was looked up.
 pub fn looked_up(text: &str) -> Option<Printed> {
-    let is_of_t = ["k", "k_p", "k95", "k_95"].into_iter().find(|name| {
+    let is_of_t = FACTOR.iter().find(|name| {
         let behind = super::words::symbol_at(text, name, 0).map(|at| &text[at + name.len()..]);
         let right = behind.and_then(|behind| behind.trim_start().strip_prefix('='));
         right.is_some_and(|right| right.trim_start().starts_with('t'))
@@ -408,12 +412,9 @@ fn names_u(behind: &str) -> bool {
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
 pub fn states_figures(lower: &str) -> bool {
-    [
-        "u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u", "u_rel", "urel", "u95", "u_95",
-    ]
-    .iter()
-    .any(|name| assigned(lower, name).is_some())
-        || lower.contains('±')
+    let of_u = ["u_c", "uc", "u(y)", "u", "u_rel", "urel", "u95", "u_95"];
+    let mut names = of_u.iter().chain(NU_EFF);
+    names.any(|name| assigned(lower, name).is_some()) || lower.contains('±')
 }
 
 /// Names that are followed by `=`, in their own case.
@@ -424,11 +425,8 @@ const NAMES: &[(Whole, &[&str])] = &[
             "u_c", "uc", "u(y)", "u_crel", "u_c,rel", "ucrel", "u_cr", "u_c_rel", "w_c", "wc",
         ],
     ),
-    (
-        Whole::Freedom,
-        &["ν_eff", "νeff", "v_eff", "veff", "nu_eff", "νₑff"],
-    ),
-    (Whole::Factor, &["k", "k_p", "k95", "k_95"]),
+    (Whole::Freedom, NU_EFF),
+    (Whole::Factor, FACTOR),
     (
         Whole::Expanded,
         &[
@@ -528,13 +526,12 @@ fn is_formula(text: &str) -> bool {
             && !["sqrt", "cdot", "times"].contains(&part)
             && !super::columns::is_unit(part)
     };
-    let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let decimal =
         |at: usize| digit(text[..at].chars().next_back()) && digit(text[at + 1..].chars().next());
     !text.contains(';')
         && text.match_indices(',').all(|(at, _)| decimal(at))
-        && !text.contains(chinese)
+        && !text.contains(is_chinese)
         && !text
             .split(|c: char| !c.is_alphanumeric() && c != '_')
             .any(word)

@@ -21,6 +21,7 @@
 //! | `lines` | lines beside a table, each to the whole or to a row |
 //! | `model` | where the model stands, and what its names say of the rows |
 //! | `quotients` | quotients that words write out |
+//! | `remarks` | what is remarked about readings, and states nothing |
 //! | `notes` | what notes say: model, correlations, rules |
 //! | `result_unit` | the unit of a result |
 //! | `mapping` | what a user says of a sheet |
@@ -54,6 +55,7 @@ mod notes;
 mod points;
 mod prose;
 mod quotients;
+mod remarks;
 mod result_unit;
 mod series;
 mod simulated;
@@ -80,7 +82,7 @@ pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, symbol
 
 use std::ops::Range;
 
-use crate::claim::{Claimed, Row, Understood};
+use crate::claim::{Claimed, Row, Understood, Unplaced};
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 
@@ -343,6 +345,7 @@ fn budget(
         ..Claimed::default()
     };
     let mut raw = found.raw.clone();
+    claimed.unplaced.extend(unread_units(&raw));
     let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
         let of_row = stating.clone().flat_map(|input| &input.raw);
@@ -444,6 +447,17 @@ fn budget(
     }
     claimed.rows.extend(missing);
     claimed
+}
+
+/// What stands in the place of units and is none, each once.
+fn unread_units(raw: &[table::Raw]) -> Vec<Unplaced> {
+    let mut units: Vec<Unplaced> = Vec::new();
+    for unit in raw.iter().filter_map(|raw| raw.row.unread_unit.as_ref()) {
+        if units.iter().all(|known| known.text != unit.text) {
+            units.push(unit.clone());
+        }
+    }
+    units
 }
 
 /// Whether u_c, or U by its k, is the root of the sum of squares of what the rows state: then nothing is correlated here.

@@ -3,7 +3,8 @@
 use crate::claim::{Claimed, Row, Understood};
 use crate::printed::Place;
 
-use gumption_core::model::functions;
+use gumption_core::letters::is_chinese;
+use gumption_core::model::is_reserved;
 
 use super::lines::Line;
 use super::mapping::Mapping;
@@ -199,13 +200,12 @@ pub(super) fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
         let model = claimed.model.clone().unwrap_or_default();
         let in_model = notes::names_of(row).find(|word| words::has_symbol(&model, word));
         // What a bracket says in Chinese words is a remark.
-        let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
         let bracketed = || {
             row.name
                 .rsplit_once('(')
                 .and_then(|(_, tail)| tail.strip_suffix(')'))
                 .filter(|s| s.chars().count() <= 12 && words::may_be_symbol(s))
-                .filter(|s| !s.starts_with(chinese))
+                .filter(|s| !s.starts_with(is_chinese))
         };
         let first = || {
             row.name
@@ -228,10 +228,8 @@ pub(super) fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
 /// An input of the model that no row has and no line gives a value to, where everything else of the model has its row.
 pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
     // As laboratories write them, besides those of the model language.
-    const FUNCTIONS: [&str; 5] = ["log", "lg", "pi", "arcsin", "arctan"];
-    let is_function = |word: &&str| {
-        FUNCTIONS.contains(word) || functions().iter().any(|function| function.name == *word)
-    };
+    const FUNCTIONS: [&str; 4] = ["log", "lg", "arcsin", "arctan"];
+    let is_function = |word: &&str| FUNCTIONS.contains(word) || is_reserved(word);
     let model = claimed.model.as_deref()?;
     let named = |row: &Row| words::has_symbol(model, &row.symbol);
     if claimed.rows.len() < 2 || !claimed.rows.iter().all(named) {
@@ -239,9 +237,7 @@ pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
     }
     let part = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
     let is_name = |word: &&str| {
-        word.starts_with(char::is_alphabetic)
-            && !word.contains(|c: char| ('\u{4e00}'..='\u{9fff}').contains(&c))
-            && !is_function(word)
+        word.starts_with(char::is_alphabetic) && !word.contains(is_chinese) && !is_function(word)
     };
     let known = |word: &&str| {
         let of = |rows: &[Row]| rows.iter().any(|row| row.symbol == *word);

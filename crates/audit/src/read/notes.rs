@@ -1,10 +1,13 @@
 //! Lines beside the table: model, correlations, the rules for k and rounding, CMC.
 
+use gumption_core::letters::is_chinese;
+
 use crate::claim::{Claimed, Correlation, Footer, RoundingStated, Row, Stated};
 use crate::printed::{Place, Printed, leading};
 
 use super::counts::{count_after, count_before};
 use super::coverage;
+use super::family::CMC;
 use super::footer;
 use super::kind::{self, Evidence};
 use super::words::{figure_after, has, has_symbol, sole_figure, symbol_at};
@@ -12,25 +15,8 @@ use super::words::{figure_after, has, has_symbol, sole_figure, symbol_at};
 /// What a line says of the whole; `None` for what it says nothing of.
 pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str> {
     let lower = text.to_lowercase();
-    if has(
-        &lower,
-        &[
-            "cmc",
-            "校准和测量能力",
-            "校准测量能力",
-            "best measurement capability",
-            "最佳测量能力",
-        ],
-    ) {
-        let keys = [
-            "cmc",
-            "校准和测量能力",
-            "校准测量能力",
-            "capability",
-            "最佳测量能力",
-            "not below",
-            "±",
-        ];
+    if has(&lower, CMC) {
+        let keys = [CMC, &["capability", "not below", "±"]].concat();
         let figure = figure_after(text, &keys)
             .or_else(|| sole_figure(text))
             .or_else(|| last_figure(text));
@@ -291,7 +277,10 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
             .rows
             .iter()
             .any(|other| !other.symbol.is_empty() && has_symbol(text, &other.symbol));
+    // Under which conditions it was calibrated is said of the whole.
+    let is_condition = has(&row.symbol.to_lowercase(), &["condition", "环境条件"]);
     let is_missing = !about_row
+        && !is_condition
         && !row.symbol.is_empty()
         && claimed
             .model
@@ -336,9 +325,7 @@ fn without_row(text: &str, claimed: &Claimed) -> Option<String> {
 
 /// The words by which a model may call a row: its symbol, or what looks like one in its name.
 pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
-    let split = |c: char| {
-        c.is_whitespace() || "(),;:。".contains(c) || ('\u{4e00}'..='\u{9fff}').contains(&c)
-    };
+    let split = |c: char| c.is_whitespace() || "(),;:。".contains(c) || is_chinese(c);
     // `[m_S]` is a name, and in `standards[W1].d` the brackets hold an index.
     let unwrapped = |word| <str>::trim_matches(word, ['[', ']']);
     let looks = |word: &&str| {
@@ -386,6 +373,15 @@ mod tests {
             said("k from the t distribution at ν_eff, p = 95.45 %"),
             Some("rule for k")
         );
+        for name in ["v_eff", "nu_eff", "ν_eff"] {
+            let mut claimed = with_rows(&["m_S", "dm"]);
+            let rule = format!("k is looked up at {name}, p = 95.45 %");
+            assert_eq!(
+                note(&rule, Place::default(), &mut claimed),
+                Some("rule for k")
+            );
+            assert_eq!(claimed.coverage, Coverage::StudentT(0.9545));
+        }
         assert_eq!(
             said("U is rounded up to two digits."),
             Some("rule for rounding")

@@ -7,6 +7,7 @@ use crate::printed::{Printed, leading};
 use crate::units;
 
 use super::counts::count_after;
+use super::family::AVERAGE;
 use super::kind;
 use super::words::{figure_after, has};
 
@@ -99,10 +100,7 @@ impl Series {
         Some(Series {
             s,
             n,
-            has_mean: has(
-                &words.to_lowercase(),
-                &["mean", "average", "平均", "mittelwert"],
-            ),
+            has_mean: has(&words.to_lowercase(), AVERAGE),
         })
     }
 

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use gumption_core::letters::is_chinese;
+
 use crate::printed::{Printed, leading};
 
 /// A text in small letters without blanks, underscores and signs of multiplication, so that `u_i (y)` is `ui(y)`.
@@ -498,6 +500,9 @@ fn starts_counted(text: &str) -> bool {
 
 /// The unit behind a figure, with the case in which the text has it.
 fn unit_in(lower: &str, whole: &str) -> String {
+    if let Some(name) = crate::units::chinese_name(lower) {
+        return name.to_owned();
+    }
     let end = lower.find(|c: char| {
         c.is_whitespace()
             || ",;)(=。、".contains(c)
@@ -567,9 +572,7 @@ pub fn symbol_at(text: &str, symbol: &str, from: usize) -> Option<usize> {
     if symbol.is_empty() {
         return None;
     }
-    let part = |c: char| {
-        c.is_alphanumeric() && !('\u{4e00}'..='\u{9fff}').contains(&c) || c == '_' || c == '\''
-    };
+    let part = |c: char| c.is_alphanumeric() && !is_chinese(c) || c == '_' || c == '\'';
     let mut at = from;
     while let Some(found) = text.get(at..).and_then(|rest| rest.find(symbol)) {
         let (start, end) = (at + found, at + found + symbol.len());

@@ -135,8 +135,14 @@ fn sentences(text: &str) -> Vec<&str> {
 /// `[9.98, 10.02]`, `9.98 to 10.02 V`, `(0~100) °C`, `200 g to 5 kg`: two figures with a mark or a word for a range between
 /// them, in the unit of the second.
 fn interval(text: &str) -> Option<(Printed, Printed)> {
-    // A comma may have parted cells.
-    const MARKS: [&str; 9] = [",", "; ", "~", "…", "至", "到", "to ", "and ", "- "];
+    const MARKS: [&str; 8] = [",", "~", "…", "至", "到", "to ", "and ", "- "];
+    // A comma may have parted the cells of a bracket; elsewhere two cells are two figures.
+    let parting = |at: usize, rest: &'_ str| {
+        let in_bracket = text[..at].ends_with(['[', '(']);
+        let cells = in_bracket.then_some("; ");
+        let mut marks = MARKS.into_iter().chain(cells);
+        marks.find(|mark| rest.starts_with(mark)).map(str::len)
+    };
     let starts = text.char_indices().filter(|(at, c)| {
         let before = text[..*at].chars().next_back();
         let free = before.is_none_or(|b| !b.is_ascii_alphanumeric() && !"._-".contains(b));
@@ -148,7 +154,7 @@ fn interval(text: &str) -> Option<(Printed, Printed)> {
         let word = blank.split_once(' ');
         let word = word.filter(|(word, _)| units::parse(word).is_some());
         let (unit, rest) = word.map_or(("", blank), |(unit, rest)| (unit, rest.trim_start()));
-        let rest = MARKS.iter().find_map(|mark| rest.strip_prefix(mark))?;
+        let rest = &rest[parting(at, rest)?..];
         let (high, behind) = leading(rest.trim_start())?;
         let end = behind.trim_start_matches([')', ']', ' ']);
         let stop = end.find(|c: char| c.is_whitespace() || ",;)。".contains(c));

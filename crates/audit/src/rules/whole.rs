@@ -71,12 +71,15 @@ pub(super) fn shares(seen: &Seen<'_>) -> Vec<Hit> {
         .claimed
         .rows
         .iter()
+        .filter(|row| row.not_counted.is_none())
         .filter_map(|row| row.share.as_ref())
         .collect();
+    let counted = seen.claimed.rows.iter();
+    let counted = counted.filter(|row| row.not_counted.is_none()).count();
     let total: f64 = shares.iter().map(|share| share.value).sum();
     let open: f64 = shares.iter().map(|share| share.half).sum();
     let whole = if total > 2.0 { 100.0 } else { 1.0 };
-    let all = shares.len() > 1 && shares.len() == seen.claimed.rows.len();
+    let all = shares.len() > 1 && shares.len() == counted;
     let off = (total - whole).abs() > (open + 1e-9).max(0.01 * whole);
     when(all && off && seen.claimed.correlations.is_empty(), || {
         format!("Σ = {total:.4}")

@@ -91,6 +91,11 @@ impl Act {
         )
     }
 
+    /// Whether it changes how k is found, and nothing else.
+    pub(super) fn changes_factor(&self) -> bool {
+        matches!(self.change, Change::Factor(_) | Change::Freedom(_))
+    }
+
     /// Whether a printed figure shows it by itself.
     pub fn is_read(&self) -> bool {
         use crate::slips::Reporting;

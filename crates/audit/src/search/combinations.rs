@@ -6,7 +6,7 @@ use crate::slips::{self, Act, Change, Reporting, Weight};
 use super::chance::Chance;
 use super::check::{Checked, check, is_printed, reported};
 use super::explanation::Explanation;
-use super::row::Options;
+use super::row::{Options, is_copy};
 
 /// More places than this are tried one at a time: pairs would take seconds, and match anything.
 const MOST_FOR_PAIRS: usize = 700;
@@ -115,7 +115,9 @@ impl<'s, 'a> Search<'s, 'a> {
         for extra in 0..=most {
             let is_found = !self.found.is_empty();
             let free = self.free.iter().copied();
-            let free: Vec<Act> = free.filter(|act| !is_found || of_rounding(act)).collect();
+            // What a row shows is asked beside a rounding that gives the same.
+            let is_asked = |act: &Act| of_rounding(act) || is_copy(self.case, act);
+            let free: Vec<Act> = free.filter(|act| !is_found || is_asked(act)).collect();
             for (set, start) in bases {
                 // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
                 if extra < 2 || set.len() == read {
@@ -165,7 +167,13 @@ impl<'s, 'a> Search<'s, 'a> {
             return;
         }
         let mut acts = [set, extra].concat();
-        if acts.is_empty() && !self.is_printed(&self.right.figures) {
+        let made = match acts.is_empty() {
+            true => self.right.figures,
+            false => reported(self.case, &calculation, &[]),
+        };
+        // Another k gives no U that the sum without rounding is far from.
+        let is_of_factor = acts.iter().all(Act::changes_factor);
+        if is_of_factor && !self.is_printed(&made) {
             // What follows from rounded figures alone, and would be printed differently without, is no sound claim.
             let Some(act) = self.rounded(&checked) else {
                 return;

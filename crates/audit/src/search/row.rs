@@ -1,7 +1,7 @@
 //! Slips that the figures of a row show.
 
 use crate::calculate::{Case, Line};
-use crate::claim::{Row, Stated};
+use crate::claim::{RoundingStated, Row, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change, Group};
 
@@ -143,9 +143,8 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
     }
     match (mismatch(row, &right), &row.u, &row.contribution) {
         (Some(Broken::U), Some(u), _) => {
-            let copied = |used: &Printed| used.value == u.value && used.unit == u.unit;
             let is_worked = worked.is_some_and(|x| u.is_met_within(x, slack(u)));
-            if is_worked || row.used.as_ref().is_some_and(copied) {
+            if is_worked || row.used.as_ref().is_some_and(|used| is_copied(used, u)) {
                 return 0.0;
             }
             chance::of_row(u, lines(Group::U).map(|line| line.u))
@@ -200,6 +199,7 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         let by_columns = by_columns.filter(|x| {
             near(u, *x, 0.0) && (x - line.u).abs() <= (slack + rounded.min(0.02)) * line.u
         });
+        let slack = slack + open_by_readings(row);
         if !near(u, line.u, slack) && by_columns.is_none() {
             return Some(Broken::U);
         }
@@ -234,7 +234,7 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         // more is stated.
         let of_u = match &row.stated {
             Stated::Standard { u, .. } => u.openness(),
-            _ => 0.0,
+            _ => open_by_readings(row),
         };
         let shown = of_u + row.c.as_ref().map_or(0.0, Printed::coarseness);
         let met = near(&contribution, line.contribution(), slack + shown)
@@ -250,12 +250,47 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
     dof.is_some_and(|dof| !freedom(dof)).then_some(Broken::Dof)
 }
 
+/// Whether the standard uncertainty is the figure that was used.
+fn is_copied(used: &Printed, u: &Printed) -> bool {
+    used.value == u.value && used.unit == u.unit
+}
+
+/// Whether a slip is that the ± of a row was taken as it stands, which is what the row prints.
+pub(super) fn is_copy(case: &Case<'_>, act: &Act) -> bool {
+    let row = act
+        .row
+        .map(|i| (&case.claimed.rows[i], case.right.lines[i]));
+    row.is_some_and(|(row, right)| {
+        let u = row.u.as_ref();
+        let copied = u
+            .zip(row.used.as_ref())
+            .filter(|(u, used)| is_copied(used, u));
+        let made = changed(right, &[*act]).u;
+        copied.is_some_and(|(u, _)| made != right.u && (made - u.value).abs() <= 1e-9 * made)
+    })
+}
+
+/// What the digits of a standard deviation or of a range leave open: unlike limits and certificates, readings give more digits
+/// than are printed.
+fn open_by_readings(row: &Row) -> f64 {
+    match &row.stated {
+        Stated::Deviation { s: figure, .. } | Stated::Range { range: figure, .. } => {
+            figure.coarseness()
+        }
+        _ => 0.0,
+    }
+}
+
 /// Whether the ± and the divisor of the laboratory, where they give the figure that it prints, give that of a line, too. Few
 /// digits leave room for both: `0.002 / 2` and `0.002 / √3` are printed as `0.001`, and the divisor says which of them it is.
 fn follows_columns(row: &Row, line: &Line) -> bool {
     let Some((used, divisor)) = row.used.as_ref().zip(row.divisor.as_ref()) else {
         return true;
     };
+    // The ± itself is what u is if nothing was divided: of `0.1`, divisor 2 and `0.1` the digits do not say it, nor deny it.
+    if row.u.as_ref().is_some_and(|u| is_copied(used, u)) {
+        return true;
+    }
     // A percentage of something is in the unit of the row as the part that it is.
     let to_unit = match crate::units::fraction(&used.unit) {
         Some(_) => row.relative_factor(),
@@ -315,6 +350,8 @@ pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
     let of_kind = match act.slip.id {
         "veff-wrong" | "c-wrong" | "hard-coded" => 6,
         "prefix" | "percent-ppm" | "U-unit" => 4,
+        // Without a rule for rounding there is none to break.
+        "rounded-down" if case.claimed.rounding == RoundingStated::Unstated => 4,
         "input-transposed" | "digits-transposed" => 5,
         "range-C" | "intermediates-rounded" => 3,
         "cert-k-2" | "triangle" | "counted-twice" => 2,
@@ -348,6 +385,8 @@ fn contradicted(case: &Case<'_>, act: &Act) -> bool {
     let worked = row.used.as_ref().zip(row.divisor.as_ref());
     let by_columns = worked.map(|(used, divisor)| used.value / divisor.value);
     let apart = |a: f64, b: f64| (a.abs() - b.abs()).abs() > 0.02 * b.abs();
-    by_columns.is_some_and(|u| apart(u, line.u))
+    // What stands as u and is the ± itself denies the divisor beside it.
+    let is_copy = is_copy(case, act);
+    by_columns.is_some_and(|u| apart(u, line.u) && !is_copy)
         || row.c.as_ref().is_some_and(|c| apart(c.value, line.c))
 }

@@ -1,12 +1,8 @@
 //! What columns and lines hold of which words say it otherwise than their cells, or say it twice.
 
-use super::{answer, first};
-use crate::read::Mapping;
-use crate::{Verdict, audit, read, rules, sheet};
+use super::{answer, first, is_sound, understood};
 
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
+use crate::{Verdict, audit, rules};
 
 /// U is three times u_c, and the sheet says k = 2.
 #[test]
@@ -141,8 +137,7 @@ fn words_state_more_than_was_used() {
 #[test]
 fn a_factor_stands_below_a_stroke_or_in_a_column() {
     let asked = |text: &str| {
-        let grids = sheet::grids("sheet.md", text.as_bytes()).unwrap();
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = understood("sheet.md", text);
         let audited = audit(&claims[0]);
         assert_eq!(audited.verdict, Verdict::Sound, "{text}");
         rules::findings(&audited.found)
@@ -290,8 +285,7 @@ fn a_result_of_one_input_closes_its_table() {
         Y1        1.0       0.50                              0.50\n\nU = 1.0, k = 2\n\n\
         Budget of Y2\nquantity  estimate  u     distribution  c      c·u\nX2        3.0       0.20  normal        1.00   0.20\n\
         Y2        3.0       0.20                              0.20\n\nU = 0.40, k = 2\n";
-    let grids = sheet::grids("sheet.txt", sheet.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.txt", sheet);
     let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
     assert_eq!(verdicts, [Verdict::Sound, Verdict::Sound]);
 }
@@ -402,16 +396,14 @@ fn a_divisor_that_is_the_number_of_readings_means_their_mean() {
                  \"Reference standard (certificate U, k = 2)\",B,0.020 mV,2,0.0100 mV\nResolution,B,0.005 mV,1.732,0.0029 mV\n\
                  Combined standard uncertainty,,,,0.0115 mV\nExpanded uncertainty (k = 2),,,,0.023 mV\n";
     assert!(first("sheet.csv", sheet).starts_with("s-over-n"));
-    let grids = sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", sheet);
     let u_c = audit(&claims[0]).found.right.u_c;
     assert!((u_c - 0.018_930).abs() < 1e-5, "{u_c}");
 }
 
 /// Findings of a text, by their rules, with their numbers.
 fn numbers(text: &str) -> Vec<(u8, String)> {
-    let grids = sheet::grids("sheet.md", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.md", text);
     let findings = rules::findings(&audit(&claims[0]).found);
     let one = |finding: rules::Finding| (finding.rule, finding.numbers);
     findings.into_iter().map(one).collect()
@@ -425,8 +417,7 @@ fn a_divisor_is_that_of_the_distribution_in_every_language() {
             "Quantity,Value,Unit,Distribution,Divisor,u,c,c*u\nlimits of gauge ±0.6,0.6,mm,{distribution},{divisor},0.346,1,0.346\n\
              repeatability,0.2,mm,normal,1,0.2,1,0.2\ncombined,,,,,,,0.40\nexpanded U (k=2),,,,,,,0.80\n"
         );
-        let grids = sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = understood("sheet.csv", &sheet);
         let findings = rules::findings(&audit(&claims[0]).found);
         findings.iter().any(|finding| finding.rule == 13)
     };

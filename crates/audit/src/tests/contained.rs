@@ -1,18 +1,10 @@
 //! What is contained in what: rows in rows, amounts in units, subtotals in sums.
 
-use super::{answer, first};
+use super::{answer, first, is_sound, understood};
 use crate::Verdict;
-use crate::read::{self, Mapping};
-use crate::rules::findings;
-use crate::{audit, sheet};
 
-fn is_sound(text: &str) {
-    assert_eq!(
-        answer("sheet.csv", text),
-        (Verdict::Sound, Vec::new()),
-        "{text}"
-    );
-}
+use crate::audit;
+use crate::rules::findings;
 
 /// The row that says that it contains another one is counted, and the other one is not missed in the sum.
 #[test]
@@ -30,7 +22,7 @@ fn a_row_that_contains_something_is_counted() {
         "Repeatability (resolution already included)",
         "\"Repeatability, resolution is included in it\"",
     ] {
-        is_sound(&sheet(name));
+        is_sound("sheet.csv", &sheet(name));
     }
     for name in [
         "Resolution (already included in the repeatability)",
@@ -52,8 +44,7 @@ fn what_a_row_includes_is_counted_again_beside_it() {
                 Resolution of the display 0.01 K,0.005,K,rectangular,1.732,1,0.0029\n\
                 Bath gradient ±0.015 K,0.015,K,rectangular,1.732,1,0.0087\n\
                 Combined standard uncertainty,,,,,,0.0151\nExpanded uncertainty (k=2),,,,,,0.030\n";
-    let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", text);
     let audited = audit(&claims[0]);
     assert_eq!(audited.verdict, Verdict::Sound);
     let found = findings(&audited.found);
@@ -65,6 +56,7 @@ fn what_a_row_includes_is_counted_again_beside_it() {
 #[test]
 fn u_may_be_in_a_multiple_of_the_unit_of_the_sum() {
     is_sound(
+        "sheet.csv",
         "Length of a string; result 5.027 m\nSource,Value ±,Unit,Distribution,Divisor,Std uncertainty\n\
          Calibration of the tape (k = 2),5.0,mm,normal,2,2.5\nResolution half division,0.5,mm,rectangular,1.732,0.29\n\
          String not straight,10,mm,rectangular,1.732,5.8\nRepeatability s of mean,0.7,mm,normal,1,0.7\n\
@@ -82,7 +74,7 @@ fn u_may_be_converted_with_a_wrong_power_of_ten() {
              Repeatability s of mean,1.5,ppm,normal,1,1,1.5\nCombined,,,,,,7.66\nExpanded U (k=2) = {expanded},,,,,,\n"
         )
     };
-    is_sound(&sheet("0.15 mV"));
+    is_sound("sheet.csv", &sheet("0.15 mV"));
     assert_eq!(first("sheet.csv", &sheet("1.5 mV")), "percent-ppm");
     assert_eq!(first("sheet.csv", &sheet("0.015 mV")), "percent-ppm");
 }
@@ -97,7 +89,7 @@ fn subtotals_are_no_terms_of_a_plain_sum() {
              Balance ±0.5 mg,0.5,mg,rectangular,1.732,0.29\nSubtotal type B,,,,,0.49\n{whole}\n"
         )
     };
-    is_sound(&sheet("u_c,,,,,0.70\nU (k=2),,,,,1.4"));
+    is_sound("sheet.csv", &sheet("u_c,,,,,0.70\nU (k=2),,,,,1.4"));
     assert_eq!(
         first("sheet.csv", &sheet("u_c,,,,,0.99\nU (k=2),,,,,2.0")),
         "linear-sum"

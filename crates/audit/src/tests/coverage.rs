@@ -1,27 +1,10 @@
 //! What a sheet says of k and its probability, in audits and imports.
 
-use super::{answer, first};
-use crate::read::Mapping;
-use crate::{Verdict, budget_files};
-use gumption_fault::language::Language;
-
-fn is_sound(sheet: &str) {
-    assert_eq!(
-        answer("sheet.csv", sheet),
-        (Verdict::Sound, Vec::new()),
-        "{sheet}"
-    );
-}
+use super::{first, imported, is_sound};
 
 /// The conventions of the budget file that a sheet is imported as.
 fn conventions(sheet: &str) -> String {
-    let files = budget_files(
-        "sheet.csv",
-        sheet.as_bytes(),
-        &Mapping::default(),
-        Language::English,
-    );
-    let file = files.unwrap().remove(0);
+    let file = imported(sheet);
     let (_, behind) = file.split_once("[conventions]\n").unwrap();
     let (conventions, _) = behind.split_once("\n\n").unwrap();
     conventions.to_string()
@@ -52,7 +35,7 @@ fn of_many(expanded: &str) -> String {
 fn an_import_has_the_rule_of_the_audit() {
     for label in ["Coverage factor k (95 %)", "k = t_0.95(ν_eff)"] {
         let sheet = of_few_readings(label);
-        is_sound(&sheet);
+        is_sound("sheet.csv", &sheet);
         let by_t = "coverage_probability = 0.95\ncoverage_factor_from = \"t\"";
         assert_eq!(conventions(&sheet), by_t, "{label}");
     }
@@ -65,7 +48,7 @@ fn an_import_has_the_rule_of_the_audit() {
         ("Expanded uncertainty; coverage factor 3,,,,1.1", "3.0"),
     ] {
         let sheet = of_many(expanded);
-        is_sound(&sheet);
+        is_sound("sheet.csv", &sheet);
         assert_eq!(
             conventions(&sheet),
             format!("coverage_factor = {k}"),
@@ -92,7 +75,7 @@ fn other_probabilities_than_95_percent_are_read() {
         "U = 3 × 0.3742 g = 1.1 g",
         "U = k × u(m) = 1.65 × 0.3742 g ≅ 0.62 g",
     ] {
-        is_sound(&of_many(expanded));
+        is_sound("sheet.csv", &of_many(expanded));
     }
     let by_two = of_many("U = 0.75 g (99 %)");
     assert_eq!(first("sheet.csv", &by_two), "k-level");
@@ -106,19 +89,17 @@ fn a_remark_is_no_rule() {
         "k = 2.87 would apply at 99 %",
         "In 2023 we used k = 3",
     ] {
-        is_sound(&of_many(&format!("U (k = 2) = 0.75 g\n{remark}")));
+        is_sound(
+            "sheet.csv",
+            &of_many(&format!("U (k = 2) = 0.75 g\n{remark}")),
+        );
     }
 }
 
 /// Degrees of freedom of a row of type B are imported, and a row without uncertainty is a constant.
 #[test]
 fn an_import_keeps_degrees_of_freedom_and_constants() {
-    let import = |sheet: &str| {
-        let mapping = Mapping::default();
-        let files = budget_files("sheet.csv", sheet.as_bytes(), &mapping, Language::English);
-        files.unwrap().remove(0)
-    };
-    let rated = import(
+    let rated = imported(
         "Source,Value (g),Distribution,Divisor,u (g),Degrees of freedom\n\
          Calibration U=0.6 g k=2,0.6,normal,2,0.300,50\nLinearity ±0.2 g,0.2,rectangular,√3,0.115,12\n\
          u_c,,,,0.321,\nU (k=2),,,,0.64,\n",
@@ -128,7 +109,7 @@ fn an_import_keeps_degrees_of_freedom_and_constants() {
         "{rated}"
     );
     assert!(rated.contains("half_width = 0.2\ndof = 12\n"), "{rated}");
-    let exact = import(
+    let exact = imported(
         "Multimeter\nE_X = V_iX - V_S + d_V\n\
          quantity,estimate,standard uncertainty,probability distribution,sensitivity coefficient,uncertainty contribution\n\
          V_iX,100.1 V,-,-,-,-\nV_S,100.0 V,0.001 V,normal,-1.0,-0.001 V\nd_V,0.0 V,0.029 V,rectangular,1.0,0.029 V\n\
@@ -144,10 +125,13 @@ fn an_import_keeps_degrees_of_freedom_and_constants() {
 #[test]
 fn a_result_above_the_sum_is_no_source() {
     for between in ["", "\n"] {
-        is_sound(&format!(
-            "Quantity,Nominal value,Std. uncertainty,Distr.,Sensitivity,u_i(y)\n\
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "Quantity,Nominal value,Std. uncertainty,Distr.,Sensitivity,u_i(y)\n\
              E,980.4 mV,0.091,normal,1.1552,0.105\ntheta,30 °,0.020,rectangular,11.413,0.228\n\
              K_1,1132.60 mV/g,,,,0.251\n{between}u_c,,,,,0.251\nU (k = 2),,,,,0.50\n"
-        ));
+            ),
+        );
     }
 }

@@ -1,18 +1,13 @@
 //! Forms of budgets that are no plain table: subtotals, columns for each type, sentences over several lines, and what is left
 //! open.
 
-use super::{answer, first};
-use crate::read::{self, Mapping};
-use crate::rules::{self, Finding};
-use crate::{Verdict, audit, sheet};
+use super::{answer, first, is_sound, understood};
 
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
+use crate::rules::{self, Finding};
+use crate::{Verdict, audit};
 
 fn findings(name: &str, text: &str) -> Vec<Finding> {
-    let grids = sheet::grids(name, text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood(name, text);
     rules::findings(&audit(&claims[0]).found)
 }
 
@@ -155,8 +150,7 @@ fn rows_of_several_quantities_need_coefficients() {
         answer("sheet.csv", &bare),
         (Verdict::NotRecomputed, Vec::new())
     );
-    let grids = sheet::grids("sheet.csv", bare.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", &bare);
     let audited = audit(&claims[0]);
     assert_eq!(audited.missing, [0, 1, 2]);
     assert!(audited.recomputed().is_none() && audited.found.gaps.is_empty());

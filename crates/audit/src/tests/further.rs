@@ -1,13 +1,9 @@
 //! Sheets in forms that are met in laboratories: heads merged over two lines, full-width marks, units that stand elsewhere,
 //! workbooks that were not computed again.
 
-use super::{answer, first};
+use super::{answer, first, is_sound};
 use crate::{Verdict, audit, read, rules, sheet};
 use gumption_fault::language::Language;
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// The report of a verification: a head merged over distribution and factor, and U in MPa of rows in kPa.
 #[test]

@@ -1,11 +1,7 @@
 //! Sheets as laboratories write them: heads, words and closing lines of many hands, in English and Chinese.
 
-use super::{answer, first};
+use super::{answer, first, is_sound, understood};
 use crate::Verdict;
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// `5720A` is an instrument and no current, and the standard deviation of the mean is divided no more.
 #[test]
@@ -231,8 +227,7 @@ fn tables_stand_side_by_side() {
          Stability,4,rectangular,√3,2.31,,Stability,30,rectangular,√3,17.3\n\
          u_c,,,,6.44,,u_c,,,,43.7\n\
          U (k=2),,,,13,,U (k=2),,,,44\n";
-    let grids = crate::sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
-    let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+    let claims = understood("sheet.csv", sheet);
     let verdicts: Vec<Verdict> = claims
         .iter()
         .map(|claimed| crate::audit(claimed).verdict)

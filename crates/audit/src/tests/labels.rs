@@ -1,16 +1,8 @@
 //! What figures of the whole are called, and sources that are called like them.
 
-use super::{answer, first};
+use super::{answer, first, is_sound};
 use crate::Verdict;
 use crate::read::Mapping;
-
-fn is_sound(sheet: &str) {
-    assert_eq!(
-        answer("sheet.csv", sheet),
-        (Verdict::Sound, Vec::new()),
-        "{sheet}"
-    );
-}
 
 /// Four sources whose u_c is 0.6116 mV.
 fn summed(whole: &str) -> String {
@@ -50,7 +42,7 @@ fn a_wrong_u_is_no_source() {
             "{label}"
         );
         assert_eq!(claims[0].rows.len(), 4, "{label}");
-        is_sound(&summed(&format!("u_c,,,0.61\n{label},,,1.2")));
+        is_sound("sheet.csv", &summed(&format!("u_c,,,0.61\n{label},,,1.2")));
     }
 }
 
@@ -108,12 +100,15 @@ fn sources_may_be_called_like_the_whole() {
         ),
         ("Combined effect of temperature,0.2,2,0.100", "0.245"),
     ] {
-        is_sound(&format!(
-            "Source,U or s (mV),k / divisor,u (mV)\n\
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "Source,U or s (mV),k / divisor,u (mV)\n\
              Standard: certificate U = 0.6 mV (k = 3),0.6,3,0.200\n\
              Repeatability (standard deviation of the mean),0.1,1,0.100\n{source}\n\
              Combined,,,{u_c}\nExpanded k=2,,,0.49\n"
-        ));
+            ),
+        );
     }
     for names in [
         ["R", "T", "U"],
@@ -122,22 +117,29 @@ fn sources_may_be_called_like_the_whole() {
         ["重复性", "标准器扩展不确定度 k=2", "漂移"],
     ] {
         let [a, b, c] = names;
-        is_sound(&format!(
-            "Source,u (mV)\n{a},0.31\n{b},0.47\n{c},0.27\n\
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "Source,u (mV)\n{a},0.31\n{b},0.47\n{c},0.27\n\
              Combined standard uncertainty,0.624\nExpanded uncertainty U (k=2),1.2\n"
-        ));
+            ),
+        );
     }
     is_sound(
+        "sheet.csv",
         "Symbol,Source,Value ± (mV),Distribution,Divisor,u (mV)\n\
          k,temperature coefficient,0.2,normal,1,0.2000\nU,voltage,0.3,rectangular,1.732,0.1732\n\
          u,speed,0.5,normal,2,0.2500\n\
          u_c,Combined standard uncertainty,,,,0.3640\nU,Expanded uncertainty (k=2),,,,0.73\n",
     );
     for [a, b, c, d] in [["A", "B", "C", "D"], ["a", "b", "c", "d"]] {
-        is_sound(&format!(
-            "Source,u (mV)\n{a},0.31\n{b},0.47\n{c},0.27\n{d},0.11\n\
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "Source,u (mV)\n{a},0.31\n{b},0.47\n{c},0.27\n{d},0.11\n\
              Combined standard uncertainty,0.634\nExpanded uncertainty U (k=2),1.3\n"
-        ));
+            ),
+        );
     }
 }
 
@@ -145,6 +147,7 @@ fn sources_may_be_called_like_the_whole() {
 #[test]
 fn a_source_above_the_sum_is_no_result() {
     is_sound(
+        "sheet.csv",
         "GUM H.1 end gauge\nu,source,value,c,u_i (nm),dof\n\
          u(l_s),Calibration of standard end gauge,25 nm,1,25,18\n\
          u(d),Measured difference between end gauges,9.7 nm,1,9.7,25.6\n\

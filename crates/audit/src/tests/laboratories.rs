@@ -1,13 +1,9 @@
 //! Sheets as laboratories of several countries lay them out, right and with one slip.
 
-use super::{answer, first};
+use super::{answer, first, is_sound, understood};
 use crate::read::{self, Mapping};
 use crate::sheet::Grid;
 use crate::{Verdict, audit};
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// Two sources and a repeatability with ν = 4, in the form of worksheets in America.
 fn worksheet(factor: &str, expanded: &str) -> String {
@@ -163,8 +159,7 @@ fn sums_and_u_have_german_names() {
 fn points_in_rows_have_chinese_heads() {
     let sheet = "校准点,标准器u1/℃,稳定性u2/℃,分辨力u3/℃,合成uc/℃,U(k=2)/℃\n\
          0,0.02,0.03,0.029,0.046,0.09\n50,0.02,0.04,0.029,0.053,0.11\n100,0.03,0.06,0.029,0.073,0.15\n";
-    let grids = crate::sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", sheet);
     let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
     assert_eq!(verdicts, [Verdict::Sound; 3]);
 }

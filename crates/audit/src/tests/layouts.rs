@@ -1,11 +1,7 @@
 //! Layouts of sheets: pages, blocks of types A and B, reports in sentences.
 
-use super::{answer, first};
+use super::{answer, first, is_sound};
 use crate::Verdict;
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// The head stands again on every page; between the pages is their number, and the title again.
 #[test]

@@ -1,5 +1,6 @@
 //! Sheets from text to verdict.
 
+mod chinese;
 mod columns;
 mod contained;
 mod coverage;
@@ -19,13 +20,36 @@ mod statements;
 mod strangers;
 mod workbooks;
 
+use crate::claim::Claimed;
 use crate::read::Mapping;
-use crate::{Audit, Verdict, audit, read, sheet};
+use crate::{Audit, Verdict, audit, budget_files, read, sheet};
+use gumption_fault::language::Language;
+
+/// The budgets of a file as they are understood.
+fn understood(name: &str, text: &str) -> Vec<Claimed> {
+    let grids = sheet::grids(name, text.as_bytes()).unwrap();
+    read::budgets(&grids, &Mapping::default())
+}
+
+/// The budget file that a sheet is imported as.
+fn imported(sheet: &str) -> String {
+    let files = budget_files(
+        "sheet.csv",
+        sheet.as_bytes(),
+        &Mapping::default(),
+        Language::English,
+    );
+    files.unwrap().remove(0)
+}
+
+/// Whether the only budget of a file is called sound.
+fn is_sound(name: &str, text: &str) {
+    assert_eq!(answer(name, text), (Verdict::Sound, Vec::new()), "{text}");
+}
 
 /// Verdict and candidates of a text.
 fn answer(name: &str, text: &str) -> (Verdict, Vec<String>) {
-    let grids = sheet::grids(name, text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood(name, text);
     assert_eq!(claims.len(), 1, "{text}");
     let audited = audit(&claims[0]);
     assert!(

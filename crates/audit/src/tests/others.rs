@@ -1,13 +1,9 @@
 //! Sheets of laboratories that nobody here knew: what each of them had in common with none before.
 
-use super::{answer, first};
+use super::{answer, first, is_sound, understood};
 use crate::Verdict;
 use crate::read::{self, Mapping};
 use crate::{audit, sheet};
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// u_c of the first budget, as it is right.
 fn u_c(name: &str, sheet: &str) -> f64 {
@@ -220,8 +216,7 @@ fn heads_and_what_looks_like_them() {
         g,gravity,9.8015,0.0036,m/s²,Normal,3,1,0.00120,\"certificate 1: U = 0.0036 m/s², k=3\"\n\
         A,area,0,0.05,m/s²,Rect.,1.7321,1,0.0289,within ±0.05 m/s²\n\
         u_c,Combined uncertainty,,,,,,,0.0289,\nU,Expanded uncertainty,,,,Normal k=2,,,0.058,\n";
-    let grids = sheet::grids("sheet.csv", table.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", table);
     assert_eq!(
         (claims[0].rows.len(), claims[0].unit.as_str()),
         (2, "m/s^2")
@@ -242,8 +237,7 @@ fn a_second_budget_begins_behind_the_widest_gap() {
     let both = budget("", "U is always rounded up", "0.42")
         + "\n\n"
         + &budget("CMC of the laboratory: 0.31 m/s²", "U to nearest", "0.42");
-    let grids = sheet::grids("sheet.csv", both.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", &both);
     let known: Vec<_> = claims
         .iter()
         .map(|one| (one.model.is_some(), one.cmc.as_ref().map(|cmc| cmc.value)))

@@ -1,16 +1,8 @@
 //! What reports print beside their tables, and what follows from it.
 
-use super::{answer, first};
-use crate::read::{self, Mapping};
-use crate::{Verdict, audit, sheet};
+use super::{answer, first, is_sound, understood};
 
-fn is_sound(text: &str) {
-    assert_eq!(
-        answer("report.txt", text),
-        (Verdict::Sound, Vec::new()),
-        "{text}"
-    );
-}
+use crate::{Verdict, audit};
 
 /// GUM H.2: |Z| with r(V, I) = -0.355, which is printed as -0.36: from that u_c is 0.2367.
 #[test]
@@ -22,8 +14,8 @@ fn a_printed_correlation_is_rounded() {
              U = 0.47 Ω (k = 2)\nr(V, I) = {r}\n"
         )
     };
-    is_sound(&text("-0.355"));
-    is_sound(&text("-0.36"));
+    is_sound("report.txt", &text("-0.355"));
+    is_sound("report.txt", &text("-0.36"));
     let (verdict, _) = answer("report.txt", &text("-0.30"));
     assert_ne!(verdict, Verdict::Sound);
 }
@@ -37,7 +29,7 @@ fn impossible_correlations_explain_nothing() {
              {list}\nu_c = 0.300 Ω\nU = 0.60 Ω (k = 2)\n"
         )
     };
-    is_sound(&text("r(R1, R2, R3) = 1.00"));
+    is_sound("report.txt", &text("r(R1, R2, R3) = 1.00"));
     assert_eq!(first("report.txt", &text("r(R1, R2) = 0.10")), "linear-sum");
     let missing = text("r(R1, R2) = 1.00\nr(R1, R3) = 1.00");
     assert_eq!(
@@ -50,6 +42,7 @@ fn impossible_correlations_explain_nothing() {
 #[test]
 fn parts_have_the_coefficient_of_the_whole() {
     is_sound(
+        "report.txt",
         "E = L_m - L_0 * (1 + alpha * (t - 20 '°C'))\n\n\
          quantity           estimate   unit      u        distribution  ν   c        c·u\n\
          L_0                400.00021  mm        0.00022  normal (B)    ∞   -1000    -0.22\n\
@@ -67,6 +60,7 @@ fn parts_have_the_coefficient_of_the_whole() {
 #[test]
 fn a_step_of_a_part_is_not_that_of_the_whole() {
     is_sound(
+        "report.txt",
         "quantity      estimate  unit  u        distribution  c  c·u\n\
          x             10.0      mm    0.0050                 1  0.0050\n\
          \x20 resolution           mm    0.0029   uniform (B)      0.0029\n\
@@ -79,6 +73,7 @@ fn a_step_of_a_part_is_not_that_of_the_whole() {
 #[test]
 fn a_voltage_may_be_called_u() {
     is_sound(
+        "report.txt",
         "Uncertainty budget of U\nquantity  estimate   unit  u        distribution  c  c·u\n\
          V         10.000097  V     0.00012  normal (B)    1  0.00012\n\
          d         0.0        V     0.00005  normal (B)    1  0.00005\n\
@@ -106,8 +101,7 @@ fn the_statement_of_a_result_is_no_note_to_an_input() {
          ┃ b = (2.16 ± 0.27) V. The number after ± is the expanded uncertainty U = 0.27 V, with k = 1.96.\n",
     ]
     .concat();
-    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("report.txt", &text);
     assert_eq!(claims.len(), 2);
     for claimed in &claims {
         assert_eq!(
@@ -129,6 +123,7 @@ fn the_statement_of_a_result_is_no_note_to_an_input() {
 #[test]
 fn coefficients_of_one_have_units_where_the_result_has_that_of_u() {
     is_sound(
+        "report.txt",
         "quantity  estimate  unit  u       distribution  c        c·u\n\
          E1        0.1000    V     0.0012  uniform (B)   1.000    0.0012\n\
          E2        0.2000    V     0.0011  uniform (B)   -1.000   -0.0011\n\
@@ -142,6 +137,7 @@ fn coefficients_of_one_have_units_where_the_result_has_that_of_u() {
 #[test]
 fn words_may_work_u_out() {
     is_sound(
+        "report.txt",
         "Source,Symbol,Estimate,u,c,u_i\n\
          \"Repeatability of the mean of two: 0.2 % / 2.8 / √2\",f,1.000,0.000505,1,0.000505\n\
          Balance,m,0,0.000200,1,0.000200\nCombined,,,,,0.000543\nExpanded (k = 2),,,,,0.0011\n",
@@ -155,8 +151,7 @@ fn an_index_is_no_name() {
                 standards[W1].d  1.270     mg    0.0490  t (B)         1  0.0490\n\
                 d                4.310     mg    0.0164  t (B)         1  0.0164\n\n\
                 u_c = 0.0517 mg\nU = 0.10 mg (k = 2)\n";
-    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("report.txt", text);
     assert_eq!(claims[0].rows[0].label(), "standards[W1].d");
 }
 
@@ -169,8 +164,8 @@ fn u_follows_from_the_digits_behind_what_is_printed() {
              u_c = 0.120\nk = 1.96\nU = {u}\nRounded to nearest.\n"
         )
     };
-    is_sound(&text("0.23"));
-    is_sound(&text("0.24"));
+    is_sound("report.txt", &text("0.23"));
+    is_sound("report.txt", &text("0.24"));
     assert_ne!(answer("report.txt", &text("0.22")).0, Verdict::Sound);
 }
 
@@ -178,6 +173,7 @@ fn u_follows_from_the_digits_behind_what_is_printed() {
 #[test]
 fn a_bracket_behind_chinese_is_no_function() {
     is_sound(
+        "report.txt",
         "quantity  estimate  u      distribution  c  c·u\nR         1.757     0.120  normal (B)    1  0.120\n\n\
          测量的输出量分布（3 个输入量(R\nu_c = 0.120\nk = 2\nU = 0.24\n",
     );
@@ -189,8 +185,7 @@ fn a_sentence_with_u_c_is_about_no_row() {
     let text = "输入量  估计值  单位  u       分布     c  c·u\nV_S     100.0   V     0.0010  正态     1  0.0010\n\
                 V_X     100.1   V     0.0289  均匀     1  0.0289\n\n合成标准不确定度  u_c = 0.0289 V\n包含因子  k = 1.65\n扩展不确定度  U = 0.048 V\n\n\
                 u_c = 0.0289 V 乘以包含因子 k = 1.65 得到；V_X 占优势，被测量的分布按矩形分布处理，±0.02 V\n";
-    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("report.txt", text);
     assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
 }
 
@@ -201,8 +196,7 @@ fn a_title_of_subtotals_is_no_sum() {
                 b         0.125     0.00183   normal (B)    1  0.00183\ny         1.882     0.00186                    0.00186\n\n\
                 U = 0.0037 (k = 2)\n\nSubtotals by group\ngroup            standard uncertainty  %\n\
                 (without group)  0.000345              3.4\nothers           0.00183               96.6\n";
-    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("report.txt", text);
     assert_eq!(claims[0].rows.len(), 2);
     assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
 }
@@ -234,6 +228,7 @@ fn a_comparison_of_results_is_no_budget() {
 #[test]
 fn a_word_begins_no_other_one() {
     is_sound(
+        "report.txt",
         "quantity  estimate  u      distribution  c  c·u\na         1.757     0.120  normal (B)    1  0.120\n\n\
          The figures are derived from their sum; k = 2 gives U.\nu_c = 0.120\nk = 2\nU = 0.24\n",
     );
@@ -256,11 +251,13 @@ fn shared_sources_correlate_rows() {
 #[test]
 fn letters_of_units_and_factors_may_be_names() {
     is_sound(
+        "report.txt",
         "## Uncertainty budget of K\n\n| quantity | estimate | u | distribution | c | c·u |\n| :--- | ---: | ---: | :--- | ---: | ---: |\n\
          | fit | 1.00000 | 0.000122 | normal (B) | 1 | 0.000122 |\n| d | 0.00000 | 0.000100 | normal (B) | 1 | 0.000100 |\n\
          | K | 1.00000 | 0.000158 |  |  | 0.000158 |\n\n- **estimate**: K = 1.00000\n- **coverage factor**: k = 2\n- **expanded uncertainty**: U = 0.00032\n",
     );
     is_sound(
+        "report.txt",
         "quantity  estimate   unit  u        distribution  c  c·u\nV         10.000097  V     0.00012  normal (B)    1  0.00012\n\
          d         0.0        V     0.00005  normal (B)    1  0.00005\n\nrepeatability (within groups): s_r = 0.0000849 V, n = 5\n\
          u_c = 0.00013 V\nU = 0.00026 V (k = 2)\n",
@@ -276,15 +273,18 @@ fn ratios_and_analyses_are_no_deviations() {
              d         0.0        V     0.00005  normal (B)    1  0.00005\n\n{remark}\nu_c = 0.00013 V\nU = 0.00026 V (k = 2)\n"
         )
     };
-    is_sound(&text(
-        "Vx 的自由度为 6（重复性 7 次），标准差为 u 的 1.22 倍",
-    ));
-    is_sound(&text(
-        "Vx: the standard deviation of 7 readings is 1.22 times u",
-    ));
-    is_sound(&text(
-        "Vx: analysis of variance of 50 readings in 10 groups, critical value 2.12 at 5 %",
-    ));
+    is_sound(
+        "report.txt",
+        &text("Vx 的自由度为 6（重复性 7 次），标准差为 u 的 1.22 倍"),
+    );
+    is_sound(
+        "report.txt",
+        &text("Vx: the standard deviation of 7 readings is 1.22 times u"),
+    );
+    is_sound(
+        "report.txt",
+        &text("Vx: analysis of variance of 50 readings in 10 groups, critical value 2.12 at 5 %"),
+    );
 }
 
 /// The head of a table of steps of the calculation says nothing of its inputs.

@@ -1,13 +1,9 @@
 //! What cells and columns state: estimates that rows share, degrees of freedom, types, units.
 
-use super::{answer, first};
+use super::{first, is_sound};
 use crate::claim::Stated;
 use crate::read::Mapping;
 use crate::{Verdict, claims};
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// Two reasons to doubt one input: its estimate, in another unit than u, stands in one of their rows.
 #[test]

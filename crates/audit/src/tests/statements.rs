@@ -1,6 +1,6 @@
 //! The statement of a sheet: closing lines that stand as the last row of a table, and the result itself.
 
-use super::{answer, first};
+use super::{answer, first, understood};
 use crate::claim::{Claimed, Footer};
 use crate::printed::Printed;
 use crate::read::{self, Mapping};
@@ -128,8 +128,7 @@ fn a_result_without_a_correction_is_found() {
                       t_X,100.20 °C,0.010 °C,normal,1,0.010 °C\ndt_H,0 °C,0.023 °C,rectangular,1,0.023 °C\nE_X,YYY °C,,,,0.029 °C\n";
     let departs = |y: &str| {
         let text = difference.replace("YYY", y);
-        let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = understood("sheet.csv", &text);
         crate::audit(&claims[0]).found.other_result().is_some()
     };
     assert!(!departs("0.15") && departs("0.20"));
@@ -162,8 +161,7 @@ fn a_unit_of_another_quantity_is_named() {
 fn what_digits_do_not_tell_is_listed() {
     let text = "Source,Half-width,Distribution,Divisor,u\nA,0.30,rectangular,√3,0.17\nB,0.40,rectangular,√3,0.23\n\
                 C,0.02,rectangular,√3,0.01\nu_c,,,,0.29\nU (k = 2),,,,0.58\n";
-    let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = understood("sheet.csv", text);
     let audited = crate::audit(&claims[0]);
     assert_eq!(audited.verdict, Verdict::Sound);
     let found = &audited.found;
@@ -184,8 +182,7 @@ fn a_result_that_nothing_gives_is_taken() {
             "Symbol,Source,Estimate,c,u_i(y) / mm\nl_S,\"certificate, U = 0.0006 mm, k = 2\",{estimates},1,0.0003\n\
              d,\"standard uncertainty 0.0004 mm\",0.0021 mm,1,0.0004\nu_c,,,,0.0005\nU (k = 2),,,,0.0010\nResult,{y}\n"
         );
-        let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = understood("sheet.csv", &text);
         assert!(claims[0].footer.y.is_some(), "{text}");
         crate::audit(&claims[0]).found.takes_result()
     };

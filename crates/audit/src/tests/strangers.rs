@@ -1,11 +1,7 @@
 //! Sheets in the words and columns of laboratories that had not been read before, and what they had in common.
 
-use super::{answer, first};
+use super::{answer, first, is_sound};
 use crate::{Verdict, audit, claims, read, rules, sheet};
-
-fn is_sound(name: &str, sheet: &str) {
-    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
-}
 
 /// `U = k x u(e) = 2 x 0.00121 MPa = 0.0024 MPa`: an x between blanks multiplies.
 #[test]

@@ -8,6 +8,7 @@ use rust_xlsxwriter::{
 use super::looks::Looks;
 use super::names::Names;
 use super::report::cut;
+use gumption_fault::language::Language;
 use gumption_format::document::{Axis, Bar, Document, Layer, Marks, Panel, Scale, Tone};
 
 /// Rows of a chart on its sheet.
@@ -30,6 +31,7 @@ pub(super) fn plots(
             sheet,
             looks,
             column: 0,
+            language: document.language,
         };
         let mut charts = Vec::new();
         for panel in &plot.panels {
@@ -102,6 +104,8 @@ struct Data<'a> {
     looks: &'a Looks,
     /// The next one that is free.
     column: u16,
+    /// Of the document.
+    language: Language,
 }
 
 /// Where the numbers of a layer stand: those across in the first column, others in those behind it.
@@ -274,7 +278,11 @@ fn stretches(
     bars: &[Bar],
     data: &mut Data<'_>,
 ) -> Result<(), XlsxError> {
-    let heads = ["from", "to", "start", &layer.name];
+    let of_ends = data
+        .language
+        .pick(["from", "to", "start"], ["自", "至", "起点"]);
+    let [from, to, start] = of_ends;
+    let heads = [from, to, start, &layer.name];
     let written = data.bars(heads, bars, |bar| {
         let (low, high) = (bar.from.min(bar.to), bar.from.max(bar.to));
         [bar.from, bar.to, low, high - low]

@@ -136,6 +136,12 @@ impl DecisionRule {
             DecisionRule::Jjf1094 => true,
         }
     }
+
+    /// The largest U with which it judges without a guard band, where it has such a limit: a third of the permissible error.
+    pub fn largest_expanded(self, tolerance: Interval) -> Option<f64> {
+        let mpe = tolerance.width().unwrap_or(f64::INFINITY) / 2.0;
+        (self == DecisionRule::Jjf1094).then_some(mpe / 3.0)
+    }
 }
 
 /// Largest permissible global risks: probabilities over all items of the process. At least one is stated.

@@ -90,10 +90,9 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
     )));
     blocks.push(Block::Table(rows(audit, language)));
     if let Some(trouble) = &audit.found.case.trouble {
-        blocks.push(Block::Paragraph(format!(
-            "{}: {trouble}",
-            pick("The model was not used", "未使用模型")
-        )));
+        blocks.push(Block::Paragraph(
+            say!("The model was not used: {trouble}").in_language(language),
+        ));
     }
     if audit.found.takes_result() {
         blocks.push(Block::Paragraph(pick(

@@ -58,13 +58,14 @@ pub fn template_names(given: &Administration) -> Option<Said> {
     })
 }
 
-/// Who answers for a certificate and who receives it, each with its table.
+/// Who answers for a certificate, who receives it, and what was calibrated, each with its table.
 fn names(given: &Administration) -> Vec<(&'static str, &str)> {
     let contacts = [
         ("laboratory", &given.laboratory.name),
         ("customer", &given.customer.name),
     ];
-    let told = contacts.into_iter().flat_map(|(table, told)| {
+    let items = given.items.iter().map(|item| ("item", &item.name));
+    let told = contacts.into_iter().chain(items).flat_map(|(table, told)| {
         let texts = told.0.iter().map(|(_, text)| text.as_str());
         texts.map(move |text| (table, text))
     });
@@ -85,6 +86,7 @@ fn checked(name: &str, text: &str) -> Result<Administration, Rejection> {
         text,
         faults,
         units: UnitTable::default(),
+        present: file.present.iter().map(|(key, _)| *key).collect(),
     };
     let administration = check.whole(&file, text.len());
     match check.faults.is_empty() {
@@ -125,6 +127,8 @@ struct Check<'t> {
     text: &'t str,
     faults: Vec<Fault>,
     units: UnitTable,
+    /// The keys that the file states, also those of which the value was refused: these are not missing.
+    present: Vec<&'static str>,
 }
 
 impl Check<'_> {
@@ -221,7 +225,7 @@ impl Check<'_> {
         key: &str,
         end: &Range<usize>,
     ) -> Option<&'t T> {
-        if stated.is_none() {
+        if stated.is_none() && !self.present.contains(&key) {
             self.missing(key, "", end.clone());
         }
         stated.as_ref().map(|stated| &stated.value)

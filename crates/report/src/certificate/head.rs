@@ -23,19 +23,33 @@ pub fn certified(
     let doubts = doubts(certificate, given);
     let head = fields(given, &document);
     let signature = document.words("Signature", "签字");
+    let item_only = document.words(
+        "The results relate only to the item described above, as it was when it was calibrated.",
+        "校准结果仅与上述被校对象校准时的状态有关。",
+    );
     let behind_statement = |block: &Block| matches!(block, Block::Statement(_));
     let behind_statement = document.blocks().iter().position(behind_statement);
     if let (Some(at), Some(signs)) = (behind_statement, given.persons.first()) {
         let line = "_".repeat(SIGNATURE);
         let line = format!("{line}  {}", signs.name);
-        document.edit(|blocks| blocks.insert(at + 1, Block::Fields(vec![(signature, line)])));
+        let signature = Block::Fields(vec![(signature, line)]);
+        document.edit(|blocks| {
+            blocks.splice(at + 1..at + 1, [Block::Paragraph(item_only), signature]);
+        });
     }
-    let behind_title = usize::from(matches!(document.blocks().first(), Some(Block::Title(_))));
+    let title = document.words("Calibration certificate", "校准证书");
+    let subject = document.words("Calibration", "校准项目");
     document.edit(|blocks| {
-        blocks.insert(behind_title, Block::Fields(head));
-        if !doubts.is_empty() {
-            blocks.insert(behind_title + 1, Block::Findings(doubts));
-        }
+        // The title of a certificate says that it is one (ISO/IEC 17025, 7.8.2.1 a); that of the budget, what was calibrated.
+        let of_budget = match blocks.first() {
+            Some(Block::Title(text)) => Some((subject, text.clone())),
+            _ => None,
+        };
+        let told = usize::from(of_budget.is_some());
+        let head = of_budget.into_iter().chain(head).collect();
+        let doubts = (!doubts.is_empty()).then_some(Block::Findings(doubts));
+        let first = [Block::Title(title), Block::Fields(head)];
+        blocks.splice(..told, first.into_iter().chain(doubts));
     });
     document
 }

@@ -105,8 +105,8 @@ impl Assessment<'_> {
             None => self
                 .l
                 .pick(
-                    "no value: u is too large for this tolerance",
-                    "无：对该容许区间而言 u 过大",
+                    "no value: the uncertainty is too large for this tolerance",
+                    "无：对该容许区间而言不确定度过大",
                 )
                 .to_string(),
             Some(acceptance) if stated => self.interval(acceptance, &exact),
@@ -165,6 +165,23 @@ impl Assessment<'_> {
         })
     }
 
+    /// U in full, where a rule asks whether it is a part of the permissible error, and its rounded form answers otherwise.
+    fn expanded_in_full(&self, rounded: &str) -> Option<String> {
+        let most = self.stated.rule.largest_expanded(self.stated.tolerance)?;
+        let upper = Interval {
+            lower: f64::NEG_INFINITY,
+            upper: most,
+        };
+        let found = self.found.expanded;
+        let compared = Compared {
+            value: found,
+            limits: &[upper],
+            print_value: &|digits| significant(found, digits),
+            print_limit: &|limit, digits| significant(limit, digits),
+        };
+        compared.in_full(rounded)
+    }
+
     /// The result as it is reported, in full beside it where rounding would change the verdict.
     fn measured(&self) -> String {
         let figures = Figures::new(self.report, self.stated.measurand);
@@ -174,7 +191,10 @@ impl Assessment<'_> {
         let in_full = in_full.map(|number| figures.of_value(&number));
         let mut parts = vec![with_unrounded(&figures.value(), in_full.as_deref(), l)];
         if let Some(expanded) = figures.expanded() {
-            parts.push(format!("U = {}", figures.amount(&expanded)));
+            let in_full = self.expanded_in_full(&expanded);
+            let in_full = in_full.map(|number| figures.amount(&number));
+            let expanded = with_unrounded(&figures.amount(&expanded), in_full.as_deref(), l);
+            parts.push(format!("U = {expanded}"));
         }
         if let Some(ends) = figures.interval() {
             if let Some(u) = figures.u() {

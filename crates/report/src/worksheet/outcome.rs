@@ -1,12 +1,13 @@
 //! What follows from the components: y, u, ν_eff, k, U; beside it what does not follow, the Monte Carlo result.
 
 use gumption_format::document::{Entry, Held, address};
-use gumption_gum::budget::{CoverageRule, DofRule};
-use gumption_gum::propagate::{Basis, CoverageBasis, Freedom, SecondOrder};
+use gumption_gum::budget::{CoverageRule, DofRule, StatementForm};
+use gumption_gum::propagate::{Basis, CoverageBasis, Freedom, SecondOrder, StatedProbability};
 
 use super::components::Components;
 use super::writer::{U_BELOW, Writer, freedom};
 use crate::figures::Figures;
+use crate::statement::form;
 use crate::symbol;
 
 /// Rows that the outcome takes.
@@ -73,9 +74,11 @@ pub(super) fn write<'a>(writer: &mut Writer<'a>, components: &Components<'a>, va
     };
     let follows = matches!(k, Entry::Formula(..));
     let word = writer.word("coverage probability p", "包含概率 p");
-    let p = match follows {
-        true => Entry::Given(coverage.probability),
-        false => Entry::Fixed(coverage.probability),
+    let p = match (follows, result.reported(conventions).probability) {
+        (true, _) => Entry::Given(coverage.probability),
+        (false, StatedProbability::Of(_)) => Entry::Fixed(coverage.probability),
+        // What the statement does not state is not stated here either.
+        (false, _) => writer.words("not stated: k is fixed", "不注明：k 为约定值"),
     };
     writer.sheet.push(line(word, p, ""));
     let word = writer.word("coverage factor k", "包含因子 k");
@@ -114,7 +117,19 @@ fn notes(writer: &mut Writer<'_>, follows: bool) {
         writer.sheet.push(vec![note]);
     }
     let figures = Figures::new(report, writer.measurand);
-    let stated = match (figures.plus_minus(), figures.interval()) {
+    let apart = || {
+        let expanded = figures.amount(&figures.expanded()?);
+        Some(format!(
+            "{} = {}, U = {expanded}",
+            figures.name,
+            figures.value()
+        ))
+    };
+    let both = match form(&report.budget.conventions) {
+        StatementForm::PlusMinus => figures.plus_minus(),
+        StatementForm::Apart => apart(),
+    };
+    let stated = match (both, figures.interval()) {
         (Some(both), _) => both,
         (None, Some([low, high])) => {
             format!("{}: [{low}, {high}]", figures.name)

@@ -7,6 +7,7 @@ use crate::read::family::*;
 use crate::read::words::{figure_after, find, has};
 
 use super::evidence::Evidence;
+use super::limits::shape;
 
 /// What says that a figure is that of the mean already.
 const OF_THE_MEAN: &[&str] = &[
@@ -101,7 +102,9 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     // `s/√n, s = 0.013, n = 4` says what is computed, and s is of single readings.
     let computed = has(text, OF_ROOT) && has(text, &["s =", "s="]);
     let of_mean = has(text, OF_THE_MEAN) || has(text, OF_ROOT) && !computed;
-    let of_mean = of_mean || unsaid && e.u_is_used();
+    // A root as divisor says that it is, whatever was made of it.
+    let is_divided = e.divisor.and_then(readings_of_divisor).is_some();
+    let of_mean = of_mean || unsaid && e.u_is_used() && !is_divided;
     // `s/√3, pooled s = 0.0087` says it with its figure.
     let by_root = || count_after(text, OF_ROOT).filter(|_| computed);
     let m = m.or_else(by_root).or(n.filter(|_| computed));
@@ -111,9 +114,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         true => by_u(),
         false => e.divisor.or_else(by_u),
     };
-    let squared = divisor
-        .map(|d| d * d)
-        .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
+    let squared = divisor.and_then(readings_of_divisor);
     // Whoever divides by the number of readings itself means their mean as well.
     let by_count = || n.filter(|n| *n > 1.0 && divisor.is_some_and(|d| (d - n).abs() < 0.03 * n));
     // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is, where it
@@ -124,7 +125,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         .then_some(1.0)
         .or(m)
         .or(e.mean_of)
-        .or_else(|| squared.filter(|_| unsaid).map(libm::round).filter(possible))
+        .or_else(|| squared.filter(|_| unsaid).filter(possible))
         .or_else(|| by_count().filter(|_| unsaid))
         .unwrap_or(1.0);
     Some(Stated::Deviation {
@@ -133,6 +134,23 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         m,
         pooled,
     })
+}
+
+/// The number of readings that a divisor is the root of.
+fn readings_of_divisor(divisor: f64) -> Option<f64> {
+    let square = divisor * divisor;
+    let is_whole = square > 1.2 && (square - libm::round(square)).abs() < 0.03 * square;
+    is_whole.then(|| libm::round(square))
+}
+
+/// Whether a row that is called a repeatability states limits: neither s nor a number of readings, and in the columns of the
+/// laboratory a distribution between limits with its divisor.
+pub(super) fn are_limits(e: &Evidence<'_>, text: &str) -> bool {
+    let shape = shape(&e.columns.to_lowercase());
+    let divided = shape.zip(e.divisor);
+    let fits =
+        divided.is_some_and(|(shape, divisor)| (divisor / shape.divisor() - 1.0).abs() < 0.01);
+    fits && !has(text, OF_SINGLE) && !has(text, POOLED) && count(text, e).is_none()
 }
 
 pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {
@@ -234,8 +252,7 @@ fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
 
 /// Readings behind the reported value: as many as are said, or all where it is their mean.
 fn behind(text: &str, e: &Evidence<'_>, n: Option<f64>) -> Option<f64> {
-    let is_mean =
-        has(text, &["mean", "average", "平均", "均值", "mittelwert"]) && !reports_single(text);
+    let is_mean = has(text, AVERAGE) && !reports_single(text);
     mean(text, e).or(n.filter(|_| is_mean))
 }
 

@@ -6,7 +6,7 @@ use crate::read::words::{find, has};
 
 use super::evidence::Evidence;
 use super::limits::shape;
-use super::readings::count;
+use super::readings::{are_limits, count};
 
 /// What the words of a row are about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +57,10 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
         // s is that of the residuals, or within groups, of which u is no simple part.
         Some(Subject::Standard)
     } else if reading && (limited.is_none() || limited >= first(DEVIATION)) {
-        Some(Subject::Readings)
+        Some(match are_limits(e, text) {
+            true => Subject::Limits,
+            false => Subject::Readings,
+        })
     } else if has(text, CYCLING) && !counts_cycles(text) {
         Some(Subject::Cycling)
     } else if limited.is_some() || shape(text).is_some() {

@@ -1,16 +1,16 @@
 //! Words and columns of rows turned into what is known, and their figures into one unit.
 
-use std::ops::Range;
-
 use crate::claim::{Claimed, Relative, Row, Stated};
 use crate::printed::Printed;
-use crate::read::family::{CONTAINED, FULL_SCALE};
+use crate::read::family::FULL_SCALE;
 use crate::read::kind::{self, Evidence};
 use crate::read::quotients::quotients;
+use crate::read::remarks;
 use crate::read::series;
-use crate::read::words::{self, find, has};
+use crate::read::words::{self, has};
 use crate::units;
 
+use super::contained::{not_counted, smaller_are_not_counted};
 use super::raw::Raw;
 use super::relative::settle_by_amount;
 
@@ -22,7 +22,8 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         let figures = [&row.used, &row.u, &row.value];
         let units = figures.into_iter().flatten().map(|figure| &figure.unit);
         let own = units.chain([&row.unit]).find(|unit| !unit.is_empty());
-        let words = own.map_or(row.words.clone(), |unit| words::of_unit(&row.words, unit));
+        let words = remarks::stating(&row.words);
+        let words = own.map_or(words.clone(), |unit| words::of_unit(&words, unit));
         let evidence = Evidence {
             words: &words,
             columns: &raw.columns_text,
@@ -42,6 +43,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         }
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }
+    smaller_are_not_counted(&mut claimed.rows);
     let columns = raw.iter().map(|raw| raw.columns_text.as_str());
     series::settle(columns.zip(&mut claimed.rows), &claimed.words);
     for row in &mut claimed.rows {
@@ -171,83 +173,6 @@ fn add_absent(claimed: &mut Claimed) {
         row.is_absent = true;
         claimed.rows.push(row);
     }
-}
-
-/// What words say, if they say that a row is not to be counted.
-pub(super) fn not_counted(words: &str) -> Option<String> {
-    const NOT_COUNTED: &[&str] = &[
-        "already contained",
-        "already included",
-        "not counted",
-        "left out",
-        "for information only",
-        "not added",
-        "不再计",
-        "不计入",
-        "不重复计",
-        "不另计",
-        "略去",
-        "不予计",
-        "不单独",
-    ];
-    const COUNTED: &[&str] = &[
-        "an indication of its own",
-        "counted beside",
-        "not contained",
-        "not included",
-        "独立示值",
-        "单独计入",
-        "另行计入",
-        "另计",
-    ];
-    let lower = words.to_lowercase();
-    let name = lower.split(PARTED).next().unwrap_or_default();
-    let of_clause = |clause: &str| {
-        let said = CONTAINED.iter().chain(NOT_COUNTED).any(|key| {
-            let at = find(clause, key, 0);
-            at.is_some_and(|at| !is_of_another(clause, at..at + key.len(), name))
-        });
-        said && (!has(clause, COUNTED) || has(clause, &["不另计"]))
-    };
-    // `r is left out; z is counted beside it`: each clause is about one thing.
-    lower
-        .split([';', '。'])
-        .any(of_clause)
-        .then(|| words.to_string())
-}
-
-/// What parts the name of a row from what is said of it, and a remark in a clause from the rest.
-const PARTED: [char; 6] = ['(', '（', ',', '，', ';', '。'];
-
-/// Whether it is something else that a clause, by the words at `said`, calls contained in the row itself: `repeatability (resolution
-/// already included)`, `重复性（已包含分辨力）`.
-fn is_of_another(clause: &str, said: Range<usize>, name: &str) -> bool {
-    const OWN: [&str; 13] = [
-        "its",
-        "this",
-        "the",
-        "which",
-        "that",
-        "effect",
-        "influence",
-        "contribution",
-        "has",
-        "been",
-        "was",
-        "are",
-        "already",
-    ];
-    // In Chinese what is contained stands behind, unless it is said in what.
-    let behind = clause[said.end..].trim_start();
-    let has_object = behind.starts_with(|c: char| c.is_alphabetic() && !"在于入进中内".contains(c));
-    if ["已包含", "已含"].contains(&&clause[said.clone()]) && has_object {
-        return true;
-    }
-    let mark = clause[..said.start].rfind(PARTED);
-    let subject = mark.map_or("", |mark| &clause[mark..said.start]);
-    let mut words = subject.split(|c: char| !c.is_alphanumeric());
-    let is_own = |word: &str| OWN.contains(&word) || word.starts_with(['其', '该', '此', '影']);
-    words.any(|word| word.len() >= 3 && !is_own(word) && !name.contains(word))
 }
 
 impl Row {

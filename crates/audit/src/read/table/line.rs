@@ -1,6 +1,6 @@
 //! One row of a table, as it stands on the sheet.
 
-use crate::claim::{Figure, Row};
+use crate::claim::{Figure, Row, Unplaced};
 use crate::printed::{self, Place, Printed};
 use crate::read::columns::{Role, names_factor};
 use crate::read::footer;
@@ -60,6 +60,7 @@ impl<'a> Line<'a> {
                 contribution: self.figure(Role::Contribution),
                 dof: self.dof(),
                 unit: alone(self.unit_beside(0)).to_string(),
+                unread_unit: self.unread_unit(),
                 is_hidden: self.grid.hidden_rows.contains(&self.row),
                 distribution: self.text(Role::Distribution),
                 evaluation: self.text(Role::Type),
@@ -94,6 +95,15 @@ impl<'a> Line<'a> {
     }
 
     fn figure(self, role: Role) -> Option<Printed> {
+        let mut figure = self.written(role)?;
+        if role != Role::C && !is_read(&figure.unit) {
+            figure.unit.clear();
+        }
+        Some(figure)
+    }
+
+    /// A figure with what stands in the place of its unit.
+    fn written(self, role: Role) -> Option<Printed> {
         let column = self.located.column(role)?;
         let cell = self.grid.cell(self.row, column.index);
         let mut figure = cell.figure()?.at(self.place(column.index));
@@ -104,11 +114,19 @@ impl<'a> Line<'a> {
             figure.unit = self.unit_beside(column.index).to_string();
         }
         figure.unit = alone(&figure.unit).to_string();
-        let is_power = units::power_of_ten(&figure.unit).is_some();
-        if units::parse(&figure.unit).is_none() && !is_power && role != Role::C {
-            figure.unit.clear();
-        }
         Some(figure)
+    }
+
+    /// The first of what stands in the place of a unit and is none that is known.
+    fn unread_unit(self) -> Option<Unplaced> {
+        let roles = [Role::Value, Role::Used, Role::U, Role::Contribution];
+        let mut figures = roles.into_iter().filter_map(|role| self.written(role));
+        let unread =
+            |figure: &Printed| figure.unit.contains(char::is_alphabetic) && !is_read(&figure.unit);
+        figures.find(unread).map(|figure| Unplaced {
+            at: figure.at,
+            text: figure.unit,
+        })
     }
 
     /// Degrees of freedom, if need be those that there are at least or about.
@@ -199,6 +217,11 @@ impl<'a> Line<'a> {
         };
         Some(Printed { unit, ..figure })
     }
+}
+
+/// Whether a text is a unit, or the power of ten that stands for one.
+fn is_read(unit: &str) -> bool {
+    units::parse(unit).is_some() || units::power_of_ten(unit).is_some()
 }
 
 /// Whether a head of what was computed from others is that of shares in the variance.

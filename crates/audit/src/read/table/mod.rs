@@ -18,9 +18,11 @@
 //! | `footers` | the claimed figures of the whole |
 //! | `footer_row` | one row of them |
 //! | `labels` | labels side by side, with their figures in the row below |
+//! | `contained` | rows that are called contained in others |
 //! | `interpret` | what is known of each row |
 
 mod closing;
+mod contained;
 mod content;
 mod footer_row;
 mod footers;

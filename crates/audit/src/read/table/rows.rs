@@ -7,7 +7,7 @@ use crate::printed::Printed;
 use crate::sheet::Grid;
 use crate::units;
 
-use super::interpret::not_counted;
+use super::contained::not_counted;
 use super::line::Line;
 use super::located::Located;
 use super::raw::Raw;
@@ -102,7 +102,10 @@ fn parts_are_not_counted(rows: &mut [Raw]) {
             true => root,
             false => of_parts.iter().map(|(u, _)| *u).fold(0.0, f64::max),
         };
-        let open = half + of_parts.iter().map(|(_, half)| *half).fold(0.0, f64::max);
+        // By how much the halves of all parts move their root; of one part that is its own.
+        let moved: f64 = of_parts.iter().map(|(u, half)| u * half / root).sum();
+        let widest = of_parts.iter().map(|(_, half)| *half).fold(0.0, f64::max);
+        let open = half + moved.max(widest);
         if parts.len() >= 2 && [root, largest].iter().any(|u| (u - own).abs() <= open) {
             let why = format!("in row {}", rows[whole].row.label());
             let c = rows[whole].row.c.clone().filter(|_| by_place);

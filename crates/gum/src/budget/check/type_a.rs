@@ -298,10 +298,15 @@ impl Checker<'_> {
                 );
             }
         };
+        // Of an s that is stated it is not known how it was found: it may be that of a range.
+        let word = match pooled.value.readings {
+            Some(_) => "pooled",
+            None => "stated",
+        };
         let how = if m == 1.0 {
-            format!("pooled s = {}", show(s))
+            format!("{word} s = {}", show(s))
         } else {
-            format!("s/√{m}, pooled s = {}", show(s))
+            format!("s/√{m}, {word} s = {}", show(s))
         };
         let evaluated = Evaluated {
             u: s / m.sqrt(),

@@ -49,8 +49,8 @@ impl Situation<'_> {
             },
             DecisionRule::GlobalRisks(permitted) => self.permitting(permitted),
             DecisionRule::Jjf1094 => {
-                let mpe = tolerance.width().unwrap_or(f64::INFINITY) / 2.0;
-                if self.expanded <= mpe / 3.0 {
+                let most = DecisionRule::Jjf1094.largest_expanded(tolerance);
+                if most.is_some_and(|most| self.expanded <= most) {
                     return binary(Some(tolerance));
                 }
                 let guard = Guard::Amount(self.expanded);

@@ -114,6 +114,15 @@ pub enum MissingMoments {
 }
 
 impl MissingMoments {
+    /// Whether a standard deviation exists, which the trials do not settle on.
+    pub fn leave_a_deviation(&self) -> bool {
+        match self {
+            MissingMoments::HeavyComponent { .. } | MissingMoments::JointReadings { .. } => false,
+            MissingMoments::Tail { consequence, .. } => *consequence == Consequence::SlowDeviation,
+            MissingMoments::FewTrials { .. } => true,
+        }
+    }
+
     /// Whether the standard deviation alone is missing, and a mean is given.
     pub fn leave_a_mean(&self) -> bool {
         match self {

@@ -58,11 +58,11 @@ pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
         }
     }
     text += &line_of_unit(&unit);
-    for i in 0..claimed.rows.len() {
+    for (line, name) in names.iter().enumerate() {
         let input = Input {
             case,
-            line: i,
-            name: &names[i],
+            line,
+            name,
             of_model: model.is_some(),
             language,
         };

@@ -281,6 +281,7 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
     let is_condition = has(&row.symbol.to_lowercase(), &["condition", "环境条件"]);
     let is_missing = !about_row
         && !is_condition
+        && !is_computed(&row.symbol, claimed)
         && !row.symbol.is_empty()
         && claimed
             .model
@@ -297,6 +298,17 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
         stated,
         relative,
         ..row
+    })
+}
+
+/// Whether a line gives a formula for a symbol, `Δ = V_x - V_s`: then it is a result, whether the rows are called so or not.
+fn is_computed(symbol: &str, claimed: &Claimed) -> bool {
+    let understood = claimed.understood.iter().map(|line| &line.text);
+    let unplaced = claimed.unplaced.iter().map(|line| &line.text);
+    understood.chain(unplaced).any(|line| {
+        let behind = line.strip_prefix(symbol).map(str::trim_start);
+        let right = behind.and_then(|behind| behind.strip_prefix('='));
+        right.is_some_and(|right| leading(right).is_none() && !right.trim().starts_with('('))
     })
 }
 

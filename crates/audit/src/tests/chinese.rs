@@ -343,3 +343,14 @@ fn conditions_are_no_inputs() {
          V_s,0.0100 mV,-1,0.0100 mV\n合成标准不确定度 u_c,,,0.0420 mV\n扩展不确定度 U (k=2),,,0.084 mV\n",
     );
 }
+
+/// A sheet whose rows are components of the inputs of its equation: what the equation gives is no input that the table lacks.
+#[test]
+fn what_an_equation_gives_is_no_input() {
+    is_sound(
+        "sheet.csv",
+        "Δ = V_x - V_s\n\n输入量,标准不确定度,灵敏系数,分量\nV_x.重复性,0.0407 mV,1,0.0407 mV\nV_s.证书,0.0100 mV,-1,0.0100 mV\n\
+         合成标准不确定度 u_c,,,0.0420 mV\n扩展不确定度 U (k=2),,,0.084 mV\n\n\
+         \"Δ = 0.0012 mV; U_95 = 0.084 mV, k_95 = 2.00。扩展不确定度为包含区间的半宽。\"\n",
+    );
+}

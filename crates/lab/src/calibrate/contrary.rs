@@ -73,7 +73,7 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Said> {
         ("resolution", of_noise(|noise| noise.resolution.is_some())),
     ];
     let of_noise = keys.iter().filter(|(_, is_there)| *is_there).map(|(key, _)| say!("`{key}` of [noise] is used by `diagnose` and `simulate` only; state such an error of the readings below [reading.NAME]."));
-    let of_columns = columns.iter().filter_map(|(name, entry)| {
+    let of_columns = columns.iter().map(|(name, entry)| {
         let column = &entry.value.0;
         let role = column.role.as_ref().map(|role| role.value);
         let is_averaged = samples && role == Some(RoleWord::Uncertainty);
@@ -83,7 +83,7 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Said> {
         let of_u = has_u.then(|| by("u"));
         let of_resolution = column.resolution.is_some().then(|| by("resolution"));
         let of_common = column.u_common.is_some().then(common);
-        Some([of_u, of_common, of_resolution].into_iter().flatten())
+        [of_u, of_common, of_resolution].into_iter().flatten()
     });
     let unused = columns.iter().filter_map(|(name, entry)| {
         let role = entry.value.0.role.as_ref()?.value;

@@ -17,7 +17,7 @@
 //! | `recordings` | one experiment and many recordings |
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
-//! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
+//! | `scatter`, `samples`, `cause`, `causes` | what makes the coefficients uncertain |
 //! | `errors`, `agreement` | what stated errors do to the readings; whether residuals are as large as they let expect |
 //! | `identify` | rank, condition, aliases |
 //! | `trouble` | why an experiment gives no coefficients |
@@ -56,6 +56,7 @@ mod plan;
 mod points;
 mod recordings;
 mod residual;
+mod samples;
 mod scatter;
 mod schedule;
 mod signs;

@@ -7,13 +7,12 @@ use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
 use super::errors::{OfDoubt, errors, explained};
 use super::gain::Gain;
-use super::noise;
-use super::points::PointColumn;
+use super::samples;
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
 use crate::experiment::{Act, Doubt, Observed, Scope, Target};
 use crate::recording::Average;
-use gumption_core::least_squares::{Solution, lower_factor};
+use gumption_core::least_squares::Solution;
 use gumption_core::special::{f_sf, student_t_two_sided_quantile};
 use gumption_gum::budget::Evaluation;
 
@@ -100,41 +99,6 @@ fn within(
     (p_value >= RARE).then(|| own(beside.sum(), stated, dof))
 }
 
-/// What is known of each reading by itself. Samples of one reading show one variance, which those of all dwells tell together, and of
-/// which a dwell of few tells little.
-fn each(stack: &Stack<'_>, errors: &[OfDoubt<'_>], sampled: &[f64], rows: &[usize]) -> Vec<Itself> {
-    let averages = rows.iter().map(|row| average(stack, &stack.rows[*row]));
-    let averages: Vec<Option<&Average>> = averages.collect();
-    let told = rows.iter().zip(&averages);
-    let told = told.filter_map(|(row, average)| Some((sampled[*row], (*average)?)));
-    let told = told.filter(|(_, average)| average.dof > 0.0);
-    let (sum, dof) = told.fold((0.0, 0.0), |(sum, dof), (variance, one)| {
-        let single = variance * one.effective;
-        (sum + one.dof * single, dof + one.dof)
-    });
-    let of_each = |row: usize| -> f64 {
-        let of_each = errors.iter().filter(|one| !one.is_shared());
-        of_each.map(|one| one.changes[row].powi(2)).sum()
-    };
-    let of_row = |(row, average): (&usize, &Option<&Average>)| {
-        let stated = of_each(*row);
-        let sampled = sampled[*row];
-        let Some(average) = average else {
-            return Itself::certain((stated + sampled).sqrt());
-        };
-        let (own, pooled) = (stated + sampled, stated + sum / dof / average.effective);
-        if dof == 0.0 || sampled == 0.0 || pooled == 0.0 {
-            return Itself::certain(own.sqrt());
-        }
-        Itself {
-            u: pooled.sqrt(),
-            factor: (pooled / own).sqrt(),
-            dof: average.dof * (own / sampled).powi(2),
-        }
-    };
-    rows.iter().zip(&averages).map(of_row).collect()
-}
-
 impl Campaign {
     /// What tells the scatter: as the file says, else residuals where there are any, else samples.
     pub(super) fn way_of_scatter(&self, rows: usize) -> Scatter {
@@ -144,6 +108,182 @@ impl Campaign {
             None if self.points.are_sampled() => Scatter::Dwells,
             None => Scatter::Stated,
         }
+    }
+}
+
+/// A solution with what its errors do to it.
+struct Fitted<'a> {
+    stack: &'a Stack<'a>,
+    solution: &'a Solution,
+    way: Scatter,
+    jacobian: DMatrix<f64>,
+    errors: Vec<OfDoubt<'a>>,
+    /// What the stated errors let expect of the square of each residual.
+    allowed: Vec<f64>,
+    /// The same without those that act on all points.
+    by_stated: Vec<f64>,
+    /// The variance of the misfit of each row by samples.
+    sampled: Vec<f64>,
+    /// 1 less the leverage of each row.
+    free: Vec<f64>,
+}
+
+impl<'a> Fitted<'a> {
+    fn of(stack: &'a Stack<'a>, solution: &'a Solution, gain: &Gain, way: Scatter) -> Fitted<'a> {
+        let jacobian = stack.jacobian(&solution.parameters, &vec![1.0; stack.rows.len()]);
+        let errors = errors(stack, &solution.parameters);
+        let allowed = explained(&errors, gain, &jacobian);
+        // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
+        // show of it explains nothing of them.
+        let of_some = errors.iter().filter(|one| one.doubt.scope != Scope::Common);
+        let by_stated = explained(of_some, gain, &jacobian);
+        let free = |row: usize| {
+            let gain = gain.by_observed.column(row);
+            1.0 - jacobian
+                .row(row)
+                .transpose()
+                .dot(&gain.rows(0, jacobian.ncols()))
+        };
+        Fitted {
+            free: (0..stack.rows.len()).map(free).collect(),
+            sampled: samples::variances(stack, &solution.parameters),
+            allowed,
+            by_stated,
+            stack,
+            solution,
+            way,
+            jacobian,
+            errors,
+        }
+    }
+
+    /// The scatter of a response, where its rows had the standard uncertainties `u`.
+    fn scatter(&self, response: usize, u: &[f64]) -> Result<ResponseScatter, Trouble> {
+        let campaign = self.stack.campaign;
+        let name = campaign.experiment.equations.responses()[response]
+            .name
+            .clone();
+        let rows = self.stack.rows_of(response);
+        let dof: f64 = rows.iter().map(|row| self.free[*row]).sum();
+        // A ν that is zero but for rounding.
+        let dof = if dof < 1e-6 * rows.len() as f64 {
+            0.0
+        } else {
+            dof
+        };
+        if self.is_unknown(&rows, dof) {
+            return Err(Trouble::NoScatter {
+                response: name,
+                readings: rows.len(),
+                parameters: campaign.experiment.parameters.len(),
+            });
+        }
+        let residual = |row: &usize| self.solution.residuals[*row];
+        let squares: f64 = rows.iter().map(|row| residual(row).powi(2)).sum();
+        let weighted: f64 = rows
+            .iter()
+            .map(|row| (residual(row) / u[*row]).powi(2))
+            .sum();
+        let weights: Vec<f64> = rows.iter().map(|row| u[*row]).collect();
+        let within = within(&|u| self.held(&rows, u), &weights, &self.errors);
+        let (own, own_dof, part) = within.unwrap_or_else(|| {
+            let by_stated = |row: &usize| self.by_stated[*row] / (u[*row] * u[*row]);
+            own(weighted, rows.iter().map(by_stated).sum(), dof)
+        });
+        // Beside what is known of parameters, weights that are alike are those of the scatter itself.
+        let unit = match (campaign.weights, rows.first()) {
+            (Weights::Equal, Some(row)) => u[*row],
+            _ => 1.0,
+        };
+        Ok(ResponseScatter {
+            response: name,
+            readings: rows.len(),
+            rms: (squares / rows.len() as f64).sqrt(),
+            s: (squares / dof).sqrt(),
+            relative: (weighted / dof).sqrt(),
+            dof,
+            own: unit * own,
+            own_dof,
+            unit,
+            part,
+            test: self.test(&rows, dof),
+        })
+    }
+
+    /// Whether nothing tells the scatter of readings.
+    fn is_unknown(&self, rows: &[usize], dof: f64) -> bool {
+        // Nobody said that nothing but the stated errors matters, and none is stated.
+        let silent = || {
+            let stated = stated_u(self.stack);
+            self.stack.campaign.scatter.is_none() && rows.iter().any(|row| stated[*row] == 0.0)
+        };
+        let is_unknown = match self.way {
+            Scatter::Residuals => dof == 0.0,
+            Scatter::Stated => silent(),
+            Scatter::Dwells => false,
+        };
+        is_unknown && !rows.is_empty()
+    }
+
+    fn held(&self, rows: &[usize], u: &[f64]) -> Rows {
+        Rows::of(
+            self.stack,
+            rows,
+            u,
+            (&self.solution.residuals, &self.jacobian),
+        )
+    }
+
+    /// The residuals of readings of which all have a known error held against what is known; nothing where one has none.
+    fn test(&self, rows: &[usize], dof: f64) -> Option<ScatterTest> {
+        let known = known_u(self.stack);
+        if rows.is_empty() || dof <= 0.0 || rows.iter().any(|row| known[*row] <= 0.0) {
+            return None;
+        }
+        let each = self.each(rows);
+        let u: Vec<f64> = each.iter().map(|one| one.u).collect();
+        let found = Agreement::of(&self.held(rows, &u), &self.errors, &each)?;
+        let square = |row: &usize| self.allowed[*row] + self.free[*row] * self.sampled[*row];
+        let expected = (rows.iter().map(square).sum::<f64>() / dof).sqrt();
+        let sampled = self.stack.campaign.points.are_sampled();
+        ScatterTest::of(&found, expected, self.way, sampled)
+    }
+
+    /// What is known of each reading by itself. Samples of one reading show one variance, which those of all dwells tell together, and of
+    /// which a dwell of few tells little.
+    fn each(&self, rows: &[usize]) -> Vec<Itself> {
+        let averages = rows
+            .iter()
+            .map(|row| samples::average(self.stack, &self.stack.rows[*row]));
+        let averages: Vec<Option<&Average>> = averages.collect();
+        let told = rows.iter().zip(&averages);
+        let told = told.filter_map(|(row, average)| Some((self.sampled[*row], (*average)?)));
+        let told = told.filter(|(_, average)| average.dof > 0.0);
+        let (sum, dof) = told.fold((0.0, 0.0), |(sum, dof), (variance, one)| {
+            let single = variance * one.effective;
+            (sum + one.dof * single, dof + one.dof)
+        });
+        let of_each = |row: usize| -> f64 {
+            let of_each = self.errors.iter().filter(|one| !one.is_shared());
+            of_each.map(|one| one.changes[row].powi(2)).sum()
+        };
+        let of_row = |(row, average): (&usize, &Option<&Average>)| {
+            let stated = of_each(*row);
+            let sampled = self.sampled[*row];
+            let Some(average) = average else {
+                return Itself::certain((stated + sampled).sqrt());
+            };
+            let (own, pooled) = (stated + sampled, stated + sum / dof / average.effective);
+            if dof == 0.0 || sampled == 0.0 || pooled == 0.0 {
+                return Itself::certain(own.sqrt());
+            }
+            Itself {
+                u: pooled.sqrt(),
+                factor: (pooled / own).sqrt(),
+                dof: average.dof * (own / sampled).powi(2),
+            }
+        };
+        rows.iter().zip(&averages).map(of_row).collect()
     }
 }
 
@@ -190,7 +330,7 @@ pub(super) fn known_u(stack: &Stack<'_>) -> Vec<f64> {
 
 fn stated_variance(stack: &Stack<'_>, row: &Row) -> f64 {
     let campaign = stack.campaign;
-    let Some((name, point)) = reading(stack, row) else {
+    let Some((name, point)) = samples::reading(stack, row) else {
         return 0.0;
     };
     let doubts = campaign.experiment.doubts.iter();
@@ -200,27 +340,7 @@ fn stated_variance(stack: &Stack<'_>, row: &Row) -> f64 {
 }
 
 fn sampled_variance(stack: &Stack<'_>, row: &Row) -> f64 {
-    average(stack, row).map_or(0.0, |average| average.u * average.u)
-}
-
-/// The samples of which a reading is the average. Of an output whose noise is told by itself, they show nothing but that.
-fn average<'s>(stack: &'s Stack<'_>, row: &Row) -> Option<&'s Average> {
-    let doubts = &stack.campaign.experiment.doubts;
-    let (name, point) = reading(stack, row)?;
-    let is_told = doubts.iter().any(|doubt| noise::is_of(doubt, name));
-    let column = stack.campaign.points.column(name).filter(|_| !is_told)?;
-    column.averages.get(point)?.as_ref()
-}
-
-/// The column and the point of a row that was read.
-fn reading<'s>(stack: &Stack<'s>, row: &Row) -> Option<(&'s str, usize)> {
-    let Row::Reading { point, response } = row else {
-        return None;
-    };
-    match &stack.campaign.experiment.observed[*response] {
-        Observed::Column(name) => Some((name, *point)),
-        _ => None,
-    }
+    samples::average(stack, row).map_or(0.0, |average| average.u * average.u)
 }
 
 impl Scatters {
@@ -234,93 +354,19 @@ impl Scatters {
         gain: &Gain,
         u: &[f64],
     ) -> Result<Scatters, Trouble> {
-        let campaign = stack.campaign;
-        let way = campaign.way_of_scatter(stack.rows.len());
-        let sampled = campaign.points.are_sampled();
-        if way == Scatter::Dwells && !sampled {
+        let way = stack.campaign.way_of_scatter(stack.rows.len());
+        if way == Scatter::Dwells && !stack.campaign.points.are_sampled() {
             return Err(Trouble::NoSamples);
         }
-        let ones = vec![1.0; stack.rows.len()];
-        let jacobian = stack.jacobian(&solution.parameters, &ones);
-        let (known, stated) = (known_u(stack), stated_u(stack));
-        let parameters = campaign.experiment.parameters.len();
-        let errors = errors(stack, &solution.parameters);
-        let allowed = explained(&errors, gain, &jacobian);
-        // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
-        // show of it explains nothing of them.
-        let of_some = errors.iter().filter(|one| one.doubt.scope != Scope::Common);
-        let by_stated = explained(of_some, gain, &jacobian);
-        let sampled_by_row = sampled_variances(stack, &solution.parameters);
-        let mut responses = Vec::new();
-        for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
-            let rows = stack.rows_of(response);
-            let free = |row: usize| {
-                let gain = gain.by_observed.column(row);
-                1.0 - jacobian.row(row).transpose().dot(&gain.rows(0, parameters))
-            };
-            let dof: f64 = rows.iter().map(|row| free(*row)).sum();
-            let sum = |u: &[f64]| -> f64 {
-                rows.iter()
-                    .map(|row| (solution.residuals[*row] / u[*row]).powi(2))
-                    .sum()
-            };
-            // A ν that is zero but for rounding.
-            let dof = if dof < 1e-6 * rows.len() as f64 {
-                0.0
-            } else {
-                dof
-            };
-            let unknown = match way {
-                Scatter::Residuals => dof == 0.0,
-                // Nobody said that nothing but the stated errors matters, and none is stated.
-                Scatter::Stated => {
-                    campaign.scatter.is_none() && rows.iter().any(|row| stated[*row] == 0.0)
-                }
-                Scatter::Dwells => false,
-            };
-            if unknown && !rows.is_empty() {
-                return Err(Trouble::NoScatter {
-                    response: quantity.name.clone(),
-                    readings: rows.len(),
-                    parameters,
-                });
-            }
-            let held = |u: &[f64]| Rows::of(stack, &rows, u, (&solution.residuals, &jacobian));
-            let weights: Vec<f64> = rows.iter().map(|row| u[*row]).collect();
-            let within = within(&held, &weights, &errors);
-            let (own, own_dof, part) = within.unwrap_or_else(|| {
-                let by_stated = |row: &usize| by_stated[*row] / (u[*row] * u[*row]);
-                own(sum(u), rows.iter().map(by_stated).sum(), dof)
-            });
-            // Beside what is known of parameters, weights that are alike are those of the scatter itself.
-            let unit = match (campaign.weights, rows.first()) {
-                (Weights::Equal, Some(row)) => u[*row],
-                _ => 1.0,
-            };
-            let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
-            let test = || {
-                let each = each(stack, &errors, &sampled_by_row, &rows);
-                let u: Vec<f64> = each.iter().map(|one| one.u).collect();
-                let found = Agreement::of(&held(&u), &errors, &each)?;
-                let square = |row: &usize| allowed[*row] + free(*row) * sampled_by_row[*row];
-                let squares: f64 = rows.iter().map(square).sum();
-                ScatterTest::of(&found, (squares / dof).sqrt(), way, sampled)
-            };
-            responses.push(ResponseScatter {
-                response: quantity.name.clone(),
-                readings: rows.len(),
-                rms: (sum(&ones) / rows.len() as f64).sqrt(),
-                s: (sum(&ones) / dof).sqrt(),
-                relative: (sum(u) / dof).sqrt(),
-                dof,
-                own: unit * own,
-                own_dof,
-                unit,
-                part,
-                test: (complete && dof > 0.0).then_some(()).and_then(|()| test()),
-            });
-        }
-        Ok(Scatters { way, responses })
+        let fitted = Fitted::of(stack, solution, gain, way);
+        let responses = 0..stack.campaign.experiment.equations.responses().len();
+        let responses: Result<_, _> = responses
+            .map(|response| fitted.scatter(response, u))
+            .collect();
+        Ok(Scatters {
+            way,
+            responses: responses?,
+        })
     }
 
     /// For a plan: nothing but what is stated.
@@ -336,7 +382,7 @@ impl Scatters {
         match self.way {
             Scatter::Stated => Vec::new(),
             Scatter::Residuals => self.of_residuals(stack, gain, u),
-            Scatter::Dwells => of_samples(stack, gain),
+            Scatter::Dwells => samples::causes(stack, gain),
         }
     }
 
@@ -384,91 +430,6 @@ impl Scatters {
         };
         self.responses.iter().enumerate().map(cause).collect()
     }
-}
-
-/// Averages of samples. What the samples of several columns have in common is one error, which goes by the name of the first of them.
-fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
-    let points = &stack.campaign.points;
-    let sampled: Vec<(usize, &PointColumn)> = points.sampled().collect();
-    let effects: Vec<DMatrix<f64>> = sampled
-        .iter()
-        .map(|(_, column)| {
-            let target = Target::Reading(column.name.clone());
-            let mut effects = gain.by_errors(stack, &target, &Scope::Each, |_| 1.0);
-            // Without an average a point has no value, and nothing of it acts.
-            for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {
-                effect *= average.map_or(0.0, |average| average.u);
-            }
-            effects
-        })
-        .collect();
-    let count = effects.first().map_or(0, DMatrix::ncols);
-    let places = &sampled;
-    let factors: Vec<DMatrix<f64>> = (0..count)
-        .map(|point| {
-            lower_factor(&DMatrix::from_fn(
-                places.len(),
-                places.len(),
-                |one, other| points.correlation(point, [places[one].0, places[other].0]),
-            ))
-        })
-        .collect();
-    let cause = |(at, (_, column)): (usize, &(usize, &PointColumn))| {
-        let own = |coefficient: usize, point: usize| {
-            let parts = effects.iter().enumerate().skip(at);
-            parts
-                .map(|(of, effects)| effects[(coefficient, point)] * factors[point][(of, at)])
-                .sum()
-        };
-        Cause {
-            origin: Origin::Samples {
-                column: column.name.clone(),
-            },
-            effects: DMatrix::from_fn(gain.coefficients(), count, own),
-            dof: (column.averages.iter().take(count))
-                .map(|average| average.map_or(f64::INFINITY, |average| average.dof))
-                .collect(),
-            distribution: None,
-            evaluation: Evaluation::TypeA,
-            how: "s/√n_eff".to_owned(),
-        }
-    };
-    sampled.iter().enumerate().map(cause).collect()
-}
-
-/// The variance of each row's misfit by the samples of which its values are averages. Of an output whose noise is told by itself, they
-/// show nothing but that.
-fn sampled_variances(stack: &Stack<'_>, parameters: &[f64]) -> Vec<f64> {
-    let campaign = stack.campaign;
-    let points = &campaign.points;
-    let doubts = &campaign.experiment.doubts;
-    let told = |column: &PointColumn| doubts.iter().any(|doubt| noise::is_of(doubt, &column.name));
-    let sampled: Vec<(usize, &PointColumn, Vec<f64>)> = points
-        .sampled()
-        .filter(|(_, column)| !told(column))
-        .map(|(place, column)| {
-            let target = Target::Reading(column.name.clone());
-            (place, column, stack.misfit_by(&target, parameters))
-        })
-        .collect();
-    let of_row = |(index, row): (usize, &Row)| {
-        let Row::Reading { point, .. } = row else {
-            return 0.0;
-        };
-        let change = |(_, column, by): &(usize, &PointColumn, Vec<f64>)| {
-            let average = column.averages.get(*point).copied().flatten();
-            average.map_or(0.0, |average| by[index] * average.u)
-        };
-        let changes: Vec<f64> = sampled.iter().map(change).collect();
-        let pairs =
-            (0..changes.len()).flat_map(|one| (0..changes.len()).map(move |other| [one, other]));
-        let product = |pair: [usize; 2]| {
-            let correlation = points.correlation(*point, pair.map(|at| sampled[at].0));
-            correlation * changes[pair[0]] * changes[pair[1]]
-        };
-        pairs.map(product).sum::<f64>().max(0.0)
-    };
-    stack.rows.iter().enumerate().map(of_row).collect()
 }
 
 #[cfg(test)]

@@ -152,9 +152,9 @@ mod tests {
         let shortened = language.first_of(&names);
         assert_eq!(
             shortened,
-            "x0, x1, x2, x3, x4, x5, x6, x7 and 9 other inputs"
+            "x0, x1, x2, x3, x4, x5, x6, x7 and 9 others"
         );
         let shortened = Language::Chinese.first_of(&names);
-        assert!(shortened.ends_with("x7 等 17 个输入量"), "{shortened}");
+        assert!(shortened.ends_with("x7 等 17 项"), "{shortened}");
     }
 }

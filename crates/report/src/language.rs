@@ -150,10 +150,7 @@ mod tests {
         let language = Language::English;
         assert_eq!(language.first_of(&names[..16]), language.list(&names[..16]));
         let shortened = language.first_of(&names);
-        assert_eq!(
-            shortened,
-            "x0, x1, x2, x3, x4, x5, x6, x7 and 9 others"
-        );
+        assert_eq!(shortened, "x0, x1, x2, x3, x4, x5, x6, x7 and 9 others");
         let shortened = Language::Chinese.first_of(&names);
         assert!(shortened.ends_with("x7 等 17 项"), "{shortened}");
     }

@@ -36,20 +36,22 @@ fn found(terms: &str, more: &str) -> Calibration {
 const ALL: &str = " + shift + bend*x^2";
 const STATED: &str = "noise.from = \"stated\"\n[columns.uu]\nrole = \"u\"\n[input.shift]\nu = 0.3\nby = \"day\"\n[input.bend]\nu = 1e-3";
 
+/// What is stated, as the covariance matrix of the readings.
+fn covariance(rows: &[(f64, usize, f64, f64)]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), rows.len(), |i, j| {
+        let ((x, day, _, u), (other, of, _, _)) = (rows[i], rows[j]);
+        let own = if i == j { u * u } else { 0.0 };
+        let shared = if day == of { 0.09 } else { 0.0 };
+        own + shared + 1e-6 * (x * other).powi(2)
+    })
+}
+
 /// By the covariance matrix of all readings: yᵀ(C⁻¹ − C⁻¹J(JᵀC⁻¹J)⁻¹JᵀC⁻¹)y.
 #[test]
 fn residuals_are_held_against_all_stated_errors_together() {
     let rows = rows();
     let count = rows.len();
-    let element = |i: usize, j: usize| {
-        let ((x, day, _, u), (other, of, _, _)) = (rows[i], rows[j]);
-        let own = if i == j { u * u } else { 0.0 };
-        let shared = if day == of { 0.09 } else { 0.0 };
-        own + shared + 1e-6 * (x * other).powi(2)
-    };
-    let inverse = DMatrix::from_fn(count, count, element)
-        .try_inverse()
-        .expect("an inverse");
+    let inverse = covariance(&rows).try_inverse().expect("an inverse");
     let slopes = DMatrix::from_fn(count, 2, |row, at| if at == 0 { 1.0 } else { rows[row].0 });
     let y = DVector::from_fn(count, |row, _| rows[row].2);
     let weighted = &inverse * &slopes;
@@ -83,13 +85,7 @@ fn the_standard_deviation_of_residuals_is_in_the_unit_of_the_readings() {
 fn the_standard_deviation_to_expect_is_that_of_the_residuals() {
     let rows = rows();
     let count = rows.len();
-    let element = |i: usize, j: usize| {
-        let ((x, day, _, u), (other, of, _, _)) = (rows[i], rows[j]);
-        let own = if i == j { u * u } else { 0.0 };
-        let shared = if day == of { 0.09 } else { 0.0 };
-        own + shared + 1e-6 * (x * other).powi(2)
-    };
-    let covariance = DMatrix::from_fn(count, count, element);
+    let covariance = covariance(&rows);
     let slopes = DMatrix::from_fn(count, 2, |row, at| if at == 0 { 1.0 } else { rows[row].0 });
     let inverse = slopes.tr_mul(&slopes).try_inverse().expect("an inverse");
     let left = DMatrix::identity(count, count) - &slopes * inverse * slopes.transpose();

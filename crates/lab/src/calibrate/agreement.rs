@@ -154,17 +154,16 @@ impl Rows {
         self.left.norm_squared()
     }
 
-    /// One less the share of its own deviation that the directions take of each reading.
-    fn free(&self) -> Vec<f64> {
-        let taken = |row: usize| self.taken.row(row).norm_squared();
-        (0..self.readings).map(|row| 1.0 - taken(row)).collect()
-    }
-
     /// What an error that each reading has for itself lets expect of the sum of squares.
     pub fn expected(&self, error: &OfDoubt<'_>) -> f64 {
+        let free = |row: usize| 1.0 - self.taken.row(row).norm_squared();
+        self.expected_of(error, free)
+    }
+
+    /// The same where so much of the deviation of each row is left free.
+    fn expected_of(&self, error: &OfDoubt<'_>, free: impl Fn(usize) -> f64) -> f64 {
         let share = |row: usize| (error.changes[self.places[row]] / self.u[row]).powi(2);
-        let free = self.free().into_iter().enumerate();
-        free.map(|(row, free)| free * share(row)).sum()
+        (0..self.readings).map(|row| free(row) * share(row)).sum()
     }
 
     /// The same rows where errors that readings share take their directions, however large they are; `None` where the parameters take
@@ -275,12 +274,7 @@ impl Agreement {
                     .filter(|error| of[*error] == at)
                     .map(|error| 1.0 - inverse[(error, error)])
                     .sum(),
-                false => {
-                    let share = |row: usize| one.changes[rows.places[row]] / rows.u[row];
-                    (0..rows.readings)
-                        .map(|row| free(row) * share(row).powi(2))
-                        .sum()
-                }
+                false => rows.expected_of(one, free),
             };
             (part / dof).powi(2) / one.doubt.dof
         };

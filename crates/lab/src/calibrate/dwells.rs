@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::points::{PointColumn, PointNames, Points, Reading};
 use crate::experiment::Words;
+use crate::recording::values::correlation;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
     Stillness, by_label, by_steps, by_stillness,
@@ -178,26 +179,6 @@ fn correlations(recording: &Recording, dwells: &[Dwell]) -> Vec<DMatrix<f64>> {
         })
     };
     dwells.iter().map(of_dwell).collect()
-}
-
-/// Of what both columns have a sample of; 0 where one of them does not vary.
-fn correlation(one: &[f64], other: &[f64]) -> f64 {
-    let both = one.iter().copied().zip(other.iter().copied());
-    let both: Vec<(f64, f64)> = both
-        .filter(|(a, b)| a.is_finite() && b.is_finite())
-        .collect();
-    let count = both.len() as f64;
-    let sums = both
-        .iter()
-        .fold((0.0, 0.0), |sums, (a, b)| (sums.0 + a, sums.1 + b));
-    let (a, b) = (sums.0 / count, sums.1 / count);
-    let product = |of: fn(f64, f64) -> f64| both.iter().map(|(x, y)| of(x - a, y - b)).sum::<f64>();
-    let size = (product(|x, _| x * x) * product(|_, y| y * y)).sqrt();
-    if size > 0.0 {
-        product(|x, y| x * y) / size
-    } else {
-        0.0
-    }
 }
 
 /// Stretches of no fewer rows that two divisions have in common.

@@ -242,6 +242,12 @@ impl<'a> Fitted<'a> {
         }
         let each = self.each(rows);
         let u: Vec<f64> = each.iter().map(|one| one.u).collect();
+        // An output that follows the samples of its stimulus exactly leaves rounding, against which nothing is held.
+        let largest = rows.iter().map(|row| self.stack.observed[*row].abs());
+        let rounding = rows.len() as f64 * f64::EPSILON * largest.fold(0.0, f64::max);
+        if u.iter().any(|u| *u <= rounding) {
+            return None;
+        }
         let found = Agreement::of(&self.held(rows, &u), &self.errors, &each)?;
         let square = |row: &usize| self.allowed[*row] + self.free[*row] * self.sampled[*row];
         let expected = (rows.iter().map(square).sum::<f64>() / dof).sqrt();

@@ -1,4 +1,4 @@
-//! Numbers of a column: the different ones, the largest, and as they are written.
+//! Numbers of a column: the different ones, the largest, as they are written, and how they go with those of another.
 
 /// Different values, ascending.
 pub fn levels_of(x: &[f64]) -> Vec<f64> {
@@ -11,6 +11,26 @@ pub fn levels_of(x: &[f64]) -> Vec<f64> {
 /// The largest modulus.
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+}
+
+/// Coefficient of correlation, of what both columns have a number of; 0 where one of them does not vary.
+pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
+    let both = x.iter().copied().zip(z.iter().copied());
+    let both: Vec<(f64, f64)> = both
+        .filter(|(x, z)| x.is_finite() && z.is_finite())
+        .collect();
+    let count = both.len().max(1) as f64;
+    let mean_x = both.iter().map(|(x, _)| x).sum::<f64>() / count;
+    let mean_z = both.iter().map(|(_, z)| z).sum::<f64>() / count;
+    let sum = |of: fn(f64, f64) -> f64| -> f64 {
+        both.iter().map(|(x, z)| of(x - mean_x, z - mean_z)).sum()
+    };
+    let size = libm::sqrt(sum(|x, _| x * x) * sum(|_, z| z * z));
+    if size > 0.0 {
+        sum(|x, z| x * z) / size
+    } else {
+        0.0
+    }
 }
 
 /// A number rounded to a decimal place not coarser than a step; as it is where there is no step.
@@ -37,6 +57,15 @@ pub fn rounded(x: f64, step: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_go_together_where_both_have_numbers() {
+        let x = [1.0, 2.0, f64::NAN, 3.0];
+        assert!((correlation(&x, &[2.0, 4.0, 9.0, 6.0]) - 1.0).abs() < 1e-15);
+        assert!((correlation(&x, &[1.0, 0.0, 9.0, -1.0]) + 1.0).abs() < 1e-15);
+        assert_eq!(correlation(&x, &[5.0; 4]), 0.0);
+        assert_eq!(correlation(&[], &[]), 0.0);
+    }
 
     #[test]
     fn numbers_are_rounded_to_a_place_not_coarser_than_a_step() {

@@ -160,3 +160,19 @@ fn an_error_without_effect_has_none() {
     let mut remarks = campaign.experiment.remarks.iter().map(ToString::to_string);
     assert!(remarks.any(|said| said.contains("none is stated of each reading of U")));
 }
+
+/// Where the output follows the samples of its stimulus exactly there is no scatter, and nothing to hold residuals against.
+#[test]
+fn rounding_is_no_scatter_of_samples() {
+    let rows = (0..DWELLS).flat_map(|dwell| (0..ROWS).map(move |row| (dwell, row)));
+    let lines = rows.map(|(dwell, row)| {
+        let x = dwell as f64 + 0.25 * (((row * 4 + dwell) % ROWS) as f64 - 4.0);
+        format!("{x},P{dwell},{},0.03\n", 2.0 * x + 0.5)
+    });
+    let csv = format!("x,pos,U,uu\n{}", lines.collect::<String>());
+    let toml = "title = \"Exact\"\nequations = [\"U = K*x + b\"]\nnoise.from = \"dwells\"\n[parameter]\nK = {}\nb = {}\n\
+                [recording]\nfile = \"run.csv\"\ndwells = [\"pos\"]\n[columns]\nx = \"stimulus\"\npos = \"label\"\nU = \"output\"\n";
+    let found = calibrate(&campaign(toml, &csv)).expect("coefficients");
+    assert!(found.figures.coefficients.iter().all(|one| one.u < 1e-9));
+    assert_eq!(found.responses[0].test, None);
+}

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-pub use crate::recording::values::{largest, levels_of, rounded};
+pub use crate::recording::values::{correlation, largest, levels_of, rounded};
 
 /// Less the middle.
 pub fn centred(x: &[f64]) -> Vec<f64> {
@@ -231,18 +231,6 @@ pub fn creeps(x: &[f64]) -> bool {
     const SMALL: f64 = 0.15;
     let (least, most) = range(x);
     typical_step(x) < SMALL * (most - least)
-}
-
-/// Coefficient of correlation; 0 where one of both does not vary.
-pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
-    let from_mean = |x: &[f64]| {
-        let mean = mean(x);
-        map(x, |x| x - mean)
-    };
-    let (x, z) = (from_mean(x), from_mean(z));
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let size = libm::sqrt(dot(&x, &x) * dot(&z, &z));
-    if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
 }
 
 /// The straight line from `x` to `y`, by its slope and its value at zero, and what it leaves of the variance of `y`; a `y`

@@ -84,7 +84,11 @@ fn rests_are_found_and_calibrated() {
     }
     // Without a word on rests each row would be a point: that is said.
     let rows = campaign(&toml.replace("still = 30\nsettle = \"0.5 s\"\n", ""));
-    let said = rows.points.findings.iter().map(|finding| finding.message());
+    let said = rows
+        .points
+        .findings
+        .iter()
+        .map(|finding| finding.said().to_string());
     assert!(
         said.collect::<String>()
             .contains("each of the 720 rows counts as a point")

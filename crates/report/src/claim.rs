@@ -1,6 +1,6 @@
 //! What a certificate claims beside what the evaluation gives.
 
-use gumption_core::quantity::Decimal;
+use gumption_core::quantity::{Decimal, to_digits};
 use gumption_fault::say;
 use gumption_gum::budget::{Claim, Figure, Part};
 use gumption_gum::propagate::{Comparison, Method, compare_claims};
@@ -182,8 +182,7 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
         let counts = matches!(comparison.claimed.what, Figure::Validated(_));
         return if comparison.is_near() && tolerance > 0.0 && !counts {
             // Three digits: what the subtraction of decimals leaves behind them is not the file's.
-            let within = format!("{tolerance:.2e}").parse().unwrap_or(tolerance);
-            let within = exact(within);
+            let within = exact(to_digits(tolerance, 3));
             say!("agrees within {within}").in_language(language)
         } else if comparison.is_near() {
             language.pick("agrees", "一致").to_string()

@@ -1,5 +1,6 @@
 //! What the tables of an imported file are made of.
 
+use gumption_core::quantity::to_digits;
 use gumption_fault::Said;
 use gumption_fault::language::Language;
 use gumption_format::toml::writing::quoted;
@@ -37,7 +38,7 @@ pub(crate) fn comment(text: &str) -> String {
 
 /// A number as it was typed: no digits that a product of doubles adds.
 pub(crate) fn number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.12e}").parse().unwrap_or(x);
+    let rounded = to_digits(x, 13);
     if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
         format!("{rounded:e}")
     } else {

@@ -1,6 +1,6 @@
 //! The functions of spreadsheets that budgets are computed with.
 
-use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
+use gumption_core::special::{normal_quantile, student_t_quantile, student_t_two_sided_quantile};
 use gumption_core::statistics::median;
 
 /// The value of a function; nothing for one that is not known, or of other arguments than it takes.
@@ -23,15 +23,11 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
         // Below, with whole degrees of freedom.
         ("T.INV", [below, nu]) => {
             let is_known = *below > 0.0 && *below < 1.0 && *nu >= 1.0;
-            is_known.then(|| {
-                let between = (2.0 * below - 1.0).abs();
-                let t = student_t_two_sided_quantile(between, libm::floor(*nu));
-                t.copysign(below - 0.5)
-            })
+            is_known.then(|| student_t_quantile(*below, libm::floor(*nu)))
         }
-        ("NORMSINV" | "NORM.S.INV", [below]) => normal_quantile(*below),
+        ("NORMSINV" | "NORM.S.INV", [below]) => standard_normal(*below),
         ("NORMINV" | "NORM.INV", [below, mean, deviation]) => {
-            Some(mean + deviation * normal_quantile(*below)?)
+            Some(mean + deviation * standard_normal(*below)?)
         }
         ("INT", [x]) => Some(libm::floor(*x)),
         ("TRUNC", [x]) => Some(libm::trunc(*x)),
@@ -61,9 +57,9 @@ fn squares(x: &[f64]) -> f64 {
     x.iter().map(|x| (x - mean) * (x - mean)).sum()
 }
 
-fn normal_quantile(below: f64) -> Option<f64> {
+fn standard_normal(below: f64) -> Option<f64> {
     let is_known = below > 0.0 && below < 1.0;
-    is_known.then(|| normal_two_sided_quantile((2.0 * below - 1.0).abs()).copysign(below - 0.5))
+    is_known.then(|| normal_quantile(below))
 }
 
 /// To so many places, halves by what `to_whole` does with the figure that is shown: 2.675 is 2.68.

@@ -34,6 +34,6 @@ pub use print::PowerStyle;
 pub use revolutions::revolutions_as_angle;
 pub(crate) use revolutions::{counts, revolutions_in, unit_of_angle};
 pub use rounded::{Rounded, RoundingRule, space_before};
-pub use show::{show, show_apart};
+pub use show::{show, show_apart, to_digits};
 pub use table::{DefinitionError, UnitTable};
 pub use unit::{Conversion, Unit, UnitParts};

@@ -16,6 +16,13 @@ pub fn show_apart(one: f64, other: f64) -> [String; 2] {
     differing.unwrap_or_else(|| [one, other].map(|number| number.to_string()))
 }
 
+/// A number with so many significant digits: what differences and products leave behind them is nobody's.
+pub fn to_digits(number: f64, digits: usize) -> f64 {
+    let behind_point = digits.saturating_sub(1);
+    let rounded = format!("{number:.behind_point$e}").parse();
+    rounded.unwrap_or(number)
+}
+
 /// Significant digits that are read at a glance.
 const AT_A_GLANCE: i32 = 7;
 
@@ -45,7 +52,15 @@ fn trim(digits: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{show, show_apart};
+    use super::{show, show_apart, to_digits};
+
+    #[test]
+    fn digits_are_significant() {
+        assert_eq!(to_digits(0.1 + 0.2, 12), 0.3);
+        assert_eq!(to_digits(-1234.5, 2), -1200.0);
+        assert_eq!(to_digits(0.0, 3), 0.0);
+        assert_eq!(to_digits(f64::INFINITY, 3), f64::INFINITY);
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -63,10 +63,10 @@ pub use epoch::Epoch;
 pub use field::{OVERLOAD, date_meant, days, mend_of_number, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
-pub use reader::headings;
+pub use reader::{headings, no_column};
 pub use request::{Content, Request};
 pub use sheet::{BadRow, Row, RowFields, Sheet};
-pub use source::{open, text_of};
+pub use source::{absent, open, text_of};
 pub use summary::mean_of_rows;
 
 use std::collections::BTreeSet;

@@ -16,7 +16,7 @@ use super::source::text_of;
 use super::summary::summary;
 use crate::files::Files;
 use gumption_core::quantity::UnitTable;
-use gumption_fault::{Fault, Rejection, nearest, say};
+use gumption_fault::{Fault, Rejection, Said, nearest, say};
 
 impl Recording {
     /// Reads the columns asked for from a file.
@@ -129,6 +129,11 @@ pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Box<Fault
     headed(text, units).map(|(_, headings)| headings)
 }
 
+/// What is said of a column that a table lacks.
+pub fn no_column(name: &str) -> Said {
+    say!("there is no column \"{name}\"")
+}
+
 /// The rows of a CSV text below its headings.
 fn headed<'t>(text: &'t str, units: &UnitTable) -> Result<(Sheet<'t>, Vec<Heading>), Box<Fault>> {
     let sheet = Sheet::new(text)?.above_units(units);
@@ -218,11 +223,11 @@ impl<'h> Places<'h> {
                     "give each column a name of its own, or ask for it with its unit"
                 ))))
             }
-            [] => Err(self.no_column(sheet, wanted)),
+            [] => Err(self.lacking(sheet, wanted)),
         }
     }
 
-    fn no_column(&self, sheet: &Sheet, wanted: &str) -> Box<Fault> {
+    fn lacking(&self, sheet: &Sheet, wanted: &str) -> Box<Fault> {
         let texts = self.headings.iter().map(|heading| heading.text.as_str());
         let names = self.headings.iter().map(|heading| heading.name.as_str());
         let near = nearest(wanted, names.chain(texts.clone()));
@@ -231,9 +236,8 @@ impl<'h> Places<'h> {
             Some(near) => say!("did you mean \"{near}\"? The columns are: {list}"),
             None => say!("the columns are: {list}"),
         };
-        let message = say!("there is no column \"{wanted}\"");
         Box::new(
-            Fault::new(NO_COLUMN, sheet.header_place(), message)
+            Fault::new(NO_COLUMN, sheet.header_place(), no_column(wanted))
                 .label(say!("the columns of the table"))
                 .help(help),
         )

@@ -69,10 +69,15 @@ pub fn open<'f>(
     opened.map_err(|error| Rejection::new(name, "", vec![unreadable(files, path, name, &error)]))
 }
 
+/// What is said of a file that is not there.
+pub fn absent(name: &str) -> Said {
+    say!("there is no file {name}")
+}
+
 fn unreadable(files: Files<'_>, path: &Path, name: &str, error: &Error) -> Fault {
     let message = match error.kind() {
         _ if files.is_folder(path) => say!("{name} is a folder, not a file"),
-        ErrorKind::NotFound => say!("there is no file {name}"),
+        ErrorKind::NotFound => absent(name),
         ErrorKind::PermissionDenied => say!("{name} may not be read"),
         _ => say!("{name} cannot be read: {error}"),
     };

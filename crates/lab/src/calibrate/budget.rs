@@ -14,7 +14,7 @@ use crate::experiment::written::{own_units, unit_line};
 use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
 use gumption_core::least_squares::lower_factor;
-use gumption_core::quantity::{Decimal, Rounding, Unit};
+use gumption_core::quantity::{Unit, to_digits};
 use gumption_fault::language::Language;
 use gumption_format::toml::writing::{key, quoted};
 use gumption_gum::budget::{Certificate, Evaluation};
@@ -301,10 +301,7 @@ fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
 
 /// Degrees of freedom without what sums of doubles add: 31 in place of 30.999999999999996.
 fn counted(dof: f64) -> f64 {
-    const DIGITS: u8 = 12;
-    Decimal::from_f64(dof)
-        .round_to_significant(DIGITS, Rounding::HalfEven)
-        .to_f64()
+    to_digits(dof, 12)
 }
 
 fn quotient(unit: &Unit, by: &Unit) -> Unit {

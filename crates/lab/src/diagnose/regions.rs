@@ -5,12 +5,13 @@ use super::case::Role;
 use super::catalogue::modifiers::{figure_to, flag, levels_of, map, range};
 use super::catalogue::{FittedModel, Modifier, Node, Term};
 use super::evidence::Cell;
+use gumption_fault::{Said, say};
 
 /// Parts into which the range of a column, or the recording, is divided.
 const PARTS: usize = 10;
 
 /// A factor, its level, and 1 in the rows that are inside.
-type Region = (String, String, Vec<f64>);
+type Region = (Said, Said, Vec<f64>);
 
 /// All cells of the scan.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -22,13 +23,14 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         if let Some(labels) = column.labels() {
             for (level, text) in labels.levels.iter().enumerate() {
                 let inside = labels.of_row.iter().map(|of| flag(*of as usize == level));
-                regions.push((column.name.clone(), text.clone(), inside.collect()));
+                let [factor, level] = [&column.name, text].map(Said::quoted);
+                regions.push((factor, level, inside.collect()));
             }
         } else if let (Some(numbers), Role::Stimulus | Role::Covariate | Role::Angle) =
             (column.numbers(), column.role)
         {
             let parts = ranges(&column.unit.after_number(), numbers).into_iter();
-            regions.extend(parts.map(|(part, inside)| (column.name.clone(), part, inside)));
+            regions.extend(parts.map(|(part, inside)| (Said::quoted(&column.name), part, inside)));
         }
     }
     regions.extend(spans(fitted));
@@ -58,7 +60,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 }
 
 /// Parts of the range of a column; each value for itself if there are few.
-fn ranges(unit: &str, numbers: &[f64]) -> Vec<(String, Vec<f64>)> {
+fn ranges(unit: &str, numbers: &[f64]) -> Vec<(Said, Vec<f64>)> {
     let mut edges = levels_of(numbers);
     if edges.len() < 2 {
         return Vec::new();
@@ -81,18 +83,16 @@ fn ranges(unit: &str, numbers: &[f64]) -> Vec<(String, Vec<f64>)> {
     (0..edges.len()).map(part).collect()
 }
 
-/// A part of the range of some numbers as text.
-fn extent((least, most): (f64, f64), numbers: &[f64], unit: &str) -> String {
-    let text = match least == most {
-        true => format!("{least} {unit}"),
-        false => {
-            let whole = range(numbers);
-            let step = 1e-3 * (whole.1 - whole.0);
-            let [from, to] = [least, most].map(|end| figure_to(end, step));
-            format!("{from} to {to} {unit}")
-        }
-    };
-    text.trim().to_owned()
+/// A part of the range of some numbers, with the unit that stands behind a number.
+fn extent((least, most): (f64, f64), numbers: &[f64], unit: &str) -> Said {
+    let in_unit = |figure: String| format!("{figure} {unit}").trim_end().to_owned();
+    if least == most {
+        return Said::quoted(in_unit(least.to_string()));
+    }
+    let whole = range(numbers);
+    let step = 1e-3 * (whole.1 - whole.0);
+    let [from, to] = [least, most].map(|end| figure_to(end, step));
+    say!("{from} to {to}", to = in_unit(to))
 }
 
 /// Successive parts of the recording.
@@ -111,18 +111,21 @@ fn spans(fitted: &FittedModel<'_>) -> Vec<Region> {
                     .by_calendar(t[first])
                     .zip(fitted.by_calendar(t[last]));
                 let span = match ends {
-                    Some((from, to)) => format!("{from} to {to}"),
+                    Some((from, to)) => say!("{from} to {to}"),
                     None => extent((t[first], t[last]), t, &unit),
                 };
-                (fitted.label(column), span)
+                (Said::quoted(fitted.label(column)), span)
             }
             None => {
                 let [from, to] = [first, last].map(|row| fitted.design.recorded(row));
-                ("rows", format!("{} to {}", from.start + 1, to.end))
+                (
+                    say!("rows"),
+                    say!("{from} to {to}", from = from.start + 1, to = to.end),
+                )
             }
         };
         let inside = (0..fitted.rows()).map(|row| flag((first..=last).contains(&row)));
-        (factor.to_owned(), span, inside.collect())
+        (factor, span, inside.collect())
     };
     (0..parts).map(part).collect()
 }

@@ -191,7 +191,7 @@ impl<'s> Checker<'s> {
         let is_there = is_there(headings, header);
         // What a procedure can use need not be there, nor what a plan is to predict.
         let base = self.source.is_base(&entry.key);
-        let is_given = names.responses.iter().any(|given| given == name);
+        let is_given = names.is_left(name);
         let said = table.role.as_ref().filter(|_| !base && !is_given);
         self.faults
             .extend(said.and_then(|said| without_equation(name, said)));
@@ -294,6 +294,23 @@ impl<'s> Checker<'s> {
             .map(|heading| heading.name.as_str())
             .filter(|name| !name.is_empty())
             .collect();
+        if names.is_left(name) {
+            let message = say!("the recording has no column {name}");
+            let fault = Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
+                .label(say!("the left side is what was observed"));
+            let columns = headers.join(", ");
+            let unused = headers.iter().filter(|other| names.kind(other).is_none());
+            let unused: Vec<&str> = unused.copied().collect();
+            let near = nearest(name, headers.iter().copied()).or(match unused[..] {
+                [only] => Some(only),
+                _ => None,
+            });
+            self.faults.push(match near {
+                Some(near) => fault.help(say!("did you mean `{near}`?")),
+                None => fault.help(say!("its columns are: {columns}")),
+            });
+            return;
+        }
         let fault = Fault::new(
             UNKNOWN_SYMBOL,
             place.clone(),

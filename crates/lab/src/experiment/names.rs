@@ -61,25 +61,26 @@ impl Names {
         let mut needs: Vec<(String, Range<usize>)> = Vec::new();
         let mut own: Vec<String> = Vec::new();
         if let Some(model) = &table.model {
-            let (given, needed) = checker.outlined(model)?;
-            own.extend(given);
-            needs.extend(needed);
+            let outlined = checker.outlined(model)?;
+            own.extend(outlined.defines);
+            own.extend(outlined.gives.map(|(name, _)| name));
+            needs.extend(outlined.needs);
         }
         for text in table.equations.iter().flat_map(|list| &list.value.0) {
-            if let Some((given, needed)) = checker.outlined(text) {
-                if let Some(given) = given.last() {
-                    let mut again = needed.iter().filter(|(name, _)| name == given);
-                    if let Some((_, place)) = again.next() {
-                        checker.faults.push(both_sides(given, place));
-                    }
-                    names.responses.push(given.clone());
-                    names.lefts.push(text.span.clone());
+            let Some(outlined) = checker.outlined(text) else {
+                continue;
+            };
+            let (gives, needed) = (outlined.gives, outlined.needs);
+            if let Some((given, place)) = &gives {
+                let mut again = needed.iter().filter(|(name, _)| name == given);
+                if let Some((_, place)) = again.next() {
+                    checker.faults.push(both_sides(given, place));
                 }
-                needs.extend(needed.into_iter().filter(|(name, _)| !own.contains(name)));
-                if let Some(given) = given.last() {
-                    needs.push((given.clone(), text.span.clone()));
-                }
+                names.responses.push(given.clone());
+                names.lefts.push(place.clone());
             }
+            needs.extend(needed.into_iter().filter(|(name, _)| !own.contains(name)));
+            needs.extend(gives);
         }
         if checker.faults.len() > before {
             return None;
@@ -118,9 +119,14 @@ impl Names {
         self.kinds.get(name).copied()
     }
 
+    /// Whether an equation gives it.
+    pub fn is_left(&self, name: &str) -> bool {
+        self.responses.iter().any(|response| response == name)
+    }
+
     /// What a column is by its place in the equations.
     pub fn role(&self, name: &str) -> RoleWord {
-        if self.responses.iter().any(|response| response == name) {
+        if self.is_left(name) {
             RoleWord::Output
         } else if self.needed.iter().any(|needed| needed == name) {
             RoleWord::Stimulus
@@ -140,7 +146,7 @@ impl Names {
         place.unwrap_or(self.needed.len())
     }
 
-    /// The equation that has it on the left.
+    /// Where it stands on the left of an equation.
     pub fn place_of_left(&self, name: &str) -> Range<usize> {
         let lefts = self.responses.iter().zip(&self.lefts);
         let mut own = lefts.filter(|(response, _)| *response == name);
@@ -232,8 +238,14 @@ fn declared(checker: &mut Checker<'_>) -> BTreeMap<String, Kind> {
         .collect()
 }
 
-/// Names that a text defines, and names that it needs with their places.
-type Outlined = (Vec<String>, Vec<(String, Range<usize>)>);
+/// What a text says, names with their places.
+struct Outlined {
+    /// Names of statements before the last.
+    defines: Vec<String>,
+    /// What the last gives.
+    gives: Option<(String, Range<usize>)>,
+    needs: Vec<(String, Range<usize>)>,
+}
 
 impl Checker<'_> {
     fn outlined(&mut self, text: &Stated<String>) -> Option<Outlined> {
@@ -249,16 +261,17 @@ impl Checker<'_> {
                     let (left, _) = line.split_once(" = ")?;
                     Some(left.split('(').next().unwrap_or(left).to_owned())
                 });
-                let mut defined: Vec<String> = defined.collect();
-                if let Some((name, _)) = &outline.gives {
-                    defined.retain(|other| other != name);
-                    defined.push(name.clone());
-                }
-                let needs = outline.needs.into_iter();
-                Some((
-                    defined,
-                    needs.map(|(name, span)| (name, place(span))).collect(),
-                ))
+                let mut defines: Vec<String> = defined.collect();
+                let placed = |(name, span)| (name, place(span));
+                let given = outline.gives.map(placed);
+                // A function on the left is told as what was given.
+                let given = given.or_else(|| Some((defines.last()?.clone(), text.span.clone())));
+                defines.retain(|name| given.as_ref().is_none_or(|(given, _)| given != name));
+                Some(Outlined {
+                    defines,
+                    gives: given,
+                    needs: outline.needs.into_iter().map(placed).collect(),
+                })
             }
             Err(faults) => {
                 let faults: Vec<Fault> = faults.into_iter().map(|f| f.moved(place)).collect();

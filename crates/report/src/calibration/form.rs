@@ -392,9 +392,9 @@ form! {
     /// Something doubtful in the recording.
     FindingForm of (finding: &Finding, l: Language) {
         /// What.
-        message: String = l.pick(finding.message(), finding.message_zh()),
+        message: String = finding.said().in_language(l),
         /// What to do.
-        advice: String = l.pick(finding.advice(), finding.advice_zh()),
+        advice: String = finding.mend().in_language(l),
         /// Line of the file; 0 for the whole.
         line: usize = finding.line,
         /// How often.

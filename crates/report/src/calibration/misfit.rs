@@ -302,11 +302,8 @@ pub(super) fn codes(campaign: &Campaign, found: &Calibration) -> String {
 /// What is doubtful in a recording, each with its code.
 fn of_recording(campaign: &Campaign, l: Language) -> Vec<(&'static str, String)> {
     let findings = campaign.points.findings.iter().map(|finding| {
-        let text = l.pick(
-            format!("{}; {}.", finding.message(), finding.advice()),
-            format!("{}；{}。", finding.message_zh(), finding.advice_zh()),
-        );
-        ("recording", text)
+        let text = say!("{}; {}.", finding.said(), finding.mend());
+        ("recording", text.in_language(l))
     });
     findings.collect()
 }

@@ -13,7 +13,6 @@ use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::evidence::{Alternative, Likeness, Slot, State};
 use gumption_lab::diagnose::{Diagnosis, Doubt};
 
-use super::labels::spoken;
 use super::names::{Names, quantity};
 use super::noise::{noise, quieter};
 use super::statement::statement;
@@ -109,7 +108,7 @@ fn located(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     for (cell, located) in diagnosis.conspicuous().take(PLACES) {
         table.push(vec![
             quantity(&cell.node, l).into(),
-            format!("{} {}", spoken(&cell.factor, l), spoken(&cell.level, l)).into(),
+            say!("{} {}", cell.factor, cell.level).in_language(l).into(),
             aligned(located.size, located.u, 2).into(),
             significant(located.u, 2).into(),
             significant(located.chi_squared, 3).into(),

@@ -229,9 +229,9 @@ form! {
         /// Quantity of the model.
         node: &'a str = &place.0.node,
         /// What divides the recording.
-        factor: &'a str = &place.0.factor,
+        factor: String = place.0.factor.to_string(),
         /// Which part.
-        level: &'a str = &place.0.level,
+        level: String = place.0.level.to_string(),
         /// Size of the disturbance there.
         size: Number = Number(place.1.size),
         /// Its standard uncertainty.

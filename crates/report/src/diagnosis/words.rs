@@ -2,6 +2,7 @@
 
 use crate::language::Language;
 use crate::number::{percent, significant};
+use gumption_core::quantity::to_digits;
 use gumption_fault::say;
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::evidence::Refusal;
@@ -24,8 +25,7 @@ pub(super) fn measure(measure: &Measure, l: Language) -> String {
             unit,
         } => {
             // Five digits, and not more of them than there are.
-            let value: f64 = format!("{value:.4e}").parse().unwrap_or(*value);
-            let value = format!("{value} {unit}");
+            let value = format!("{} {unit}", to_digits(*value, 5));
             let value = value.trim_end();
             say!("the same once more with {column} at {value}").in_language(l)
         }

@@ -10,8 +10,8 @@ use crate::budget::variants::{Amounts, Numbers};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Dd;
 use gumption_fault::{Fault, Rejection, say};
-use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, TOO_LARGE, UNREADABLE};
-use gumption_format::csv::{Recording, Request};
+use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, TOO_LARGE};
+use gumption_format::csv::{Recording, Request, absent, no_column};
 use gumption_format::toml::Amount;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 use gumption_format::toml::{Slot, Stated};
@@ -155,8 +155,8 @@ impl Checker<'_> {
             .into_iter()
             .partition(|fault| fault.code == NO_COLUMN);
         for fault in unknown {
-            let quoted = |name: &str| fault.message.to_string().ends_with(&format!("\"{name}\""));
-            let named = columns.iter().find(|(name, _)| quoted(name.value.trim()));
+            let is_of = |name: &str| fault.message == no_column(name);
+            let named = columns.iter().find(|(name, _)| is_of(name.value.trim()));
             let (place, name) = named.map_or((file, ""), |(name, _)| (*name, &name.value));
             let message = say!("{} has no column \"{name}\"", file.value);
             self.report(Fault {
@@ -168,8 +168,7 @@ impl Checker<'_> {
         if let (true, Some(fault)) = (rejection.text.is_empty(), rejection.faults.first()) {
             let folder = self.source.origin.folder();
             let message = fault.message.clone().renamed(&shown, &file.value);
-            let absent = message.to_string().starts_with("there is no file");
-            let message = match fault.code == UNREADABLE && absent {
+            let message = match fault.message == absent(&shown) {
                 true => say!("{message} in {folder}"),
                 false => message,
             };

@@ -13,7 +13,7 @@ use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
-use gumption_core::quantity::{Decimal, Unit};
+use gumption_core::quantity::{Decimal, Unit, to_digits};
 use gumption_core::statistics::{Dd, OutlierTest, Serial, Series, pooled};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -532,9 +532,9 @@ fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>
     )
 }
 
-/// Twelve digits: what the subtraction of a turn leaves behind them is not the file's.
+/// What the subtraction of a turn leaves behind twelve digits is not the file's.
 fn at_twelve(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
+    to_digits(x, 12)
 }
 
 /// Zero-mean t distribution of a mean of readings, for reuse by joint readings.

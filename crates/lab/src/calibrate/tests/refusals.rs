@@ -282,7 +282,7 @@ fn saturated_samples_are_warned_of() {
             .points
             .findings
             .iter()
-            .any(|f| f.message().contains("saturated")),
+            .any(|f| f.said().to_string().contains("saturated")),
         "{:?}",
         campaign.points.findings
     );
@@ -385,9 +385,9 @@ fn positions_are_averaged_together() {
         panic!("{:?}", campaign.points.findings);
     };
     assert!(
-        finding.message().contains("\"down\" has 1 point "),
+        finding.said().to_string().contains("\"down\" has 1 point "),
         "{}",
-        finding.message()
+        finding.said()
     );
 }
 
@@ -612,9 +612,9 @@ fn spikes_are_told_at_their_line() {
     };
     assert_eq!((spike.line, spike.count), (251, 1));
     assert!(
-        spike.message().contains("is 3 where its dwell"),
+        spike.said().to_string().contains("is 3 where its dwell"),
         "{}",
-        spike.message()
+        spike.said()
     );
 }
 

@@ -83,7 +83,7 @@ pub use fitted::{FittedModel, Node, signal};
 
 use super::case::Case;
 use super::evidence;
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Unit, to_digits};
 
 /// What the placeholders of an effect's texts stand for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -390,8 +390,7 @@ impl Variation {
             return self.label.clone();
         };
         let exact = modifiers::figure(shape.value);
-        let short = format!("{:.2e}", shape.value).parse();
-        let short = short.map_or_else(|_| exact.clone(), modifiers::figure);
+        let short = modifiers::figure(to_digits(shape.value, 3));
         let words = self.label.split(' ');
         let words = words.map(|word| if word == exact { &short } else { word });
         words.collect::<Vec<&str>>().join(" ")

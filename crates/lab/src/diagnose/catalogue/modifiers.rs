@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use gumption_core::quantity::to_digits;
+
 pub use crate::recording::values::{correlation, largest, levels_of, rounded};
 
 /// Less the middle.
@@ -18,7 +20,7 @@ pub fn middle(x: &[f64]) -> f64 {
 
 /// Five digits of a number: formulas show the very number by which something is divided.
 pub fn five_digits(x: f64) -> f64 {
-    format!("{x:.4e}").parse().unwrap_or(x)
+    to_digits(x, 5)
 }
 
 /// Arithmetic mean.

@@ -13,6 +13,7 @@ use super::norm::Norm;
 use super::sharp::{beats, best_pair, sharpened, sharpened_together, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
+use gumption_core::quantity::to_digits;
 
 /// Cells of the columns that the model uses.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -110,7 +111,7 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let node = Node::Column(column);
     let by = |change: f64| raised(fitted, column, middle, [exponent, change]);
     // Large changes are no multiples of a small one: that which is found, to two digits.
-    let two_digits = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
+    let two_digits = |x: f64| to_digits(x, 2);
     let found = |change: f64| size_of(fitted, &Term::new(node, by(change))).map(two_digits);
     let change = found(0.0).map_or(0.0, |first| found(first).unwrap_or(first));
     let (id, form) = (EffectId::Exponent, form("", vec![by(change)]));

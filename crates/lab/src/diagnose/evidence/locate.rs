@@ -4,6 +4,7 @@
 //! all rows. Here each cell, such as "angle, at head angle 210°", is a disturbance with an effect of its
 //! own, projected like any other.
 
+use gumption_fault::Said;
 use nalgebra::{DMatrix, DVector};
 
 use super::baseline::Baseline;
@@ -21,9 +22,9 @@ pub struct Cell {
     /// Quantity of the model: "bias", "scale", "angle" …
     pub node: String,
     /// What the level is a level of: "position", "run", "direction", "axis", "time span" …
-    pub factor: String,
+    pub factor: Said,
     /// The level: "210°", "2", "CW" …
-    pub level: String,
+    pub level: Said,
     /// n derivatives of the output by the disturbance; zero in the rows of other levels.
     pub column: DVector<f64>,
 }
@@ -135,8 +136,8 @@ mod tests {
         let at = |row: usize, slope: fn(f64) -> f64| slope((row % 12) as f64 * PI / 6.0);
         let node = |name: &str, level: usize, slope: fn(f64) -> f64| Cell {
             node: name.into(),
-            factor: "position".into(),
-            level: (level * 30).to_string(),
+            factor: Said::quoted("position"),
+            level: Said::quoted((level * 30).to_string()),
             column: DVector::from_fn(36, |row, _| match row % 12 == level {
                 true => at(row, slope),
                 false => 0.0,
@@ -145,7 +146,7 @@ mod tests {
         let cells = (0..12).flat_map(|k| [node("bias", k, |_| 1.0), node("angle", k, f64::cos)]);
         let cells: Vec<Cell> = cells.collect();
         let cell = |node: &str, level: &str| {
-            let is_it = |cell: &Cell| cell.node == node && cell.level == level;
+            let is_it = |cell: &Cell| cell.node == node && cell.level == Said::quoted(level);
             cells.iter().position(is_it).unwrap()
         };
         let truth = cell("bias", "210");
@@ -160,7 +161,7 @@ mod tests {
         };
         let located = locate(&baseline, &cells, &settings);
         // The angle cell of the same position is the same column but for its unit.
-        let same = |cell: usize| cells[cell].level == "210";
+        let same = |cell: usize| cells[cell].level == Said::quoted("210");
         assert!(same(located[0].cell) && same(located[1].cell));
         let found = located.iter().find(|l| l.cell == truth).unwrap();
         assert!((found.size - 5.0).abs() < 0.1 && (found.u - (1.0_f64 / 3.0).sqrt()).abs() < 0.2);

@@ -3,6 +3,7 @@
 use crate::recording::{Checks, Content, Finding, Problem, Recording, Request, Severity, check};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::Fault;
+use gumption_fault::language::Language;
 use gumption_format::csv::faults::*;
 
 const NO_CHECKS: Checks = Checks {
@@ -218,8 +219,10 @@ fn column(header: &str, values: &[f64]) -> Recording {
 fn told(recording: &Recording, checks: &Checks) -> Vec<Finding> {
     let findings = check(recording, checks);
     for finding in &findings {
-        assert!(!finding.message().is_empty() && !finding.advice().is_empty());
-        assert!(!finding.message_zh().is_ascii() && !finding.advice_zh().is_ascii());
+        for text in [finding.said(), finding.mend()] {
+            assert!(!text.to_string().is_empty());
+            assert!(!text.in_language(Language::Chinese).is_ascii());
+        }
     }
     findings
 }

@@ -110,7 +110,7 @@ fn every_file_is_read_and_sound() {
         let grave: Vec<String> = findings
             .iter()
             .filter(|finding| finding.severity() == Severity::Error)
-            .map(super::super::Finding::message)
+            .map(|finding| finding.said().to_string())
             .collect();
         assert!(grave.is_empty() && !outputs.is_empty(), "{file}: {grave:?}");
     }
@@ -145,7 +145,7 @@ fn outputs_of_the_recordings_are_not_saturated() {
         let of_outputs: Vec<String> = findings
             .iter()
             .filter(|finding| finding.severity() > Severity::Note)
-            .map(super::super::Finding::message)
+            .map(|finding| finding.said().to_string())
             .collect();
         assert!(of_outputs.is_empty(), "{file}: {of_outputs:?}");
     }

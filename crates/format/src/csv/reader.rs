@@ -76,14 +76,19 @@ impl Recording {
             }
         });
         faults.extend(visited.err().unwrap_or_default());
-        faults.extend(two_decimal_signs(&sheet, &headings, &drafts));
+        let mut of_fields: Vec<Fault> = Vec::new();
+        for draft in &mut drafts {
+            draft.settle_clock(units.parse("s").ok());
+            of_fields.extend(draft.take_faults());
+        }
+        // A field that is written otherwise than those above it is told itself.
+        if of_fields.is_empty() {
+            faults.extend(two_decimal_signs(&sheet, &headings, &drafts));
+        }
         if faults.is_empty() {
             faults.extend(summary(&sheet));
         }
-        for draft in &mut drafts {
-            draft.settle_clock(units.parse("s").ok());
-            faults.extend(draft.take_faults());
-        }
+        faults.extend(of_fields);
         if !faults.is_empty() {
             return Err(reject(faults));
         }

@@ -1,11 +1,14 @@
 //! How well a model describes the recording: χ², residual scatter, prediction of what was held out.
 
-use gumption_core::special::{chi_squared_cdf, f_cdf};
+use gumption_core::special::roots::last;
+use gumption_core::special::{
+    chi_squared_cdf, f_cdf, student_t_two_sided, student_t_two_sided_quantile,
+};
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::baseline;
 use super::design::{Design, Unknown};
-use super::evidence::{self, Covariance, Spread};
+use super::evidence::{self, COVERAGE, Covariance, Spread};
 use super::fit::Fit;
 use super::noise::Claimed;
 
@@ -144,17 +147,45 @@ fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
 }
 
 /// Variance of an unknown and its degrees of freedom. Of several laws the variance is the mean u² (law of total variance: all
-/// of them have the same estimate), and its degrees of freedom are 2u⁴/Var(u²) (GUM G.4.2): u² differs from law to law,
-/// and within each as a χ² does.
+/// of them have the same estimate), and the degrees of freedom are those with which the interval ±k·u has its probability in the
+/// mixture of their t-distributions: infinite, where that of a normal distribution is no narrower.
 fn mixed(spreads: &[Spread], at: usize) -> (f64, f64) {
     let count = spreads.len() as f64;
-    let mean = |of: &dyn Fn(&Spread) -> f64| spreads.iter().map(of).sum::<f64>() / count;
-    let variance = mean(&|spread| spread.variances[at]);
-    let of_variance = mean(&|spread| {
-        let own = spread.variances[at];
-        (own - variance).powi(2) + 2.0 * own * own / spread.dof
-    });
-    (variance, 2.0 * variance * variance / of_variance)
+    let variance = spreads.iter().map(|law| law.variances[at]).sum::<f64>() / count;
+    match spreads {
+        [only] => (variance, only.dof),
+        _ if variance > 0.0 => (variance, degrees_of_interval(factor(spreads, at, variance))),
+        _ => (variance, f64::INFINITY),
+    }
+}
+
+/// The k of the interval ±k·u in a mixture of laws whose mean variance is u².
+fn factor(spreads: &[Spread], at: usize, variance: f64) -> f64 {
+    let ratio = |law: &Spread| (law.variances[at].max(0.0) / variance).sqrt();
+    let of_laws = spreads.iter().filter(|law| ratio(law) > 0.0);
+    let own = |law: &Spread| ratio(law) * student_t_two_sided_quantile(COVERAGE, law.dof);
+    let widest = of_laws.clone().map(own).fold(0.0, f64::max);
+    let within = |k: f64| {
+        let inside = of_laws
+            .clone()
+            .map(|law| student_t_two_sided(k / ratio(law), law.dof));
+        let certain = spreads.len() - of_laws.clone().count();
+        (inside.sum::<f64>() + certain as f64) / spreads.len() as f64
+    };
+    last(0.0, widest, |k| within(k) < COVERAGE)
+}
+
+/// The degrees of freedom of the t-distribution whose interval has the coverage factor k.
+fn degrees_of_interval(k: f64) -> f64 {
+    /// Beyond, the interval is that of a normal distribution to more digits than k is known with.
+    const MANY: f64 = 1e9;
+    /// Below, not even the probable error is known.
+    const FEW: f64 = 0.5;
+    let is_as_wide = |nu: f64| student_t_two_sided_quantile(COVERAGE, nu) >= k;
+    match is_as_wide(MANY) {
+        true => f64::INFINITY,
+        false => last(FEW, MANY, is_as_wide),
+    }
 }
 
 /// By what the noise is larger than claimed; one where the claim stands.
@@ -248,6 +279,7 @@ mod tests {
 
     #[test]
     fn laws_that_disagree_cost_degrees_of_freedom() {
+        use gumption_core::special::normal_cdf;
         let law = |variance: f64, dof: f64| Spread {
             variances: DVector::from_element(1, variance),
             expected: 1.0,
@@ -255,11 +287,20 @@ mod tests {
         };
         assert_eq!(mixed(&[law(3.0, 12.0)], 0), (3.0, 12.0));
         assert_eq!(mixed(&[law(3.0, f64::INFINITY)], 0), (3.0, f64::INFINITY));
-        // u² = 1 or 3, as likely: mean 2, variance 1, 2·2²/1.
+        // Of normal distributions of u² = 1 or 3, as likely: Φ(k√2) + Φ(k√(2/3)) = 1.95, k = 2.0383.
         let both = [law(1.0, f64::INFINITY), law(3.0, f64::INFINITY)];
-        assert_eq!(mixed(&both, 0), (2.0, 8.0));
-        // Of ten degrees of freedom each: 2·2²/(1 + (2/10 + 18/10)/2).
-        let known_less = [law(1.0, 10.0), law(3.0, 10.0)];
-        assert!((mixed(&known_less, 0).1 - 4.0).abs() < 1e-12);
+        let (variance, dof) = mixed(&both, 0);
+        let k = student_t_two_sided_quantile(0.95, dof);
+        let inside = |scale: f64| 2.0 * normal_cdf(k * scale) - 1.0;
+        assert_eq!(variance, 2.0);
+        assert!((inside(2.0_f64.sqrt()) + inside((2.0 / 3.0_f64).sqrt()) - 1.9).abs() < 1e-12);
+        // A narrower interval than that of a normal distribution is not stated.
+        assert!(dof.is_finite() && k > 1.96);
+        // One law of many that allows a hundred times as much: no interval of finite variance is wider than √(4/(9·0.05)) standard
+        // deviations (Vysochanskij and Petunin 1980).
+        let mut many = vec![law(1.0, f64::INFINITY); 19];
+        many.push(law(1e4, f64::INFINITY));
+        let (_, dof) = mixed(&many, 0);
+        assert!(student_t_two_sided_quantile(0.95, dof) < 2.98);
     }
 }

@@ -169,7 +169,7 @@ fn input(text: &mut String, result: &ResultOf<'_>, dof: f64) {
         estimate.u,
         unit_line(&result.unit)
     );
-    if dof.is_finite() && dof > 2.0 {
+    if dof.is_finite() {
         let _ = writeln!(text, "dof = {dof:?}\ndistribution = \"normal\"");
     }
 }

@@ -193,8 +193,11 @@ impl<'s> Checker<'s> {
         let base = self.source.is_base(&entry.key);
         let is_given = names.is_left(name);
         let said = table.role.as_ref().filter(|_| !base && !is_given);
+        let declared = entries(&self.source.table.columns);
+        let is_declared = |given: &&String| declared.iter().any(|(name, _)| name == *given);
+        let undeclared = names.responses.iter().find(|given| !is_declared(given));
         self.faults
-            .extend(said.and_then(|said| without_equation(name, said)));
+            .extend(said.and_then(|said| without_equation(name, said, undeclared)));
         let offered = base && named.is_none();
         let awaited = self.purpose == Purpose::Plan
             && (role == RoleWord::Output || names.only_left.iter().any(|left| left == name));
@@ -330,16 +333,22 @@ impl<'s> Checker<'s> {
     }
 }
 
-/// A column of which the file says nothing itself.
 /// What is wrong with an output that no equation gives: as a condition it would be looked at.
-fn without_equation(name: &str, role: &Stated<RoleWord>) -> Option<Fault> {
+fn without_equation(
+    name: &str,
+    role: &Stated<RoleWord>,
+    undeclared: Option<&String>,
+) -> Option<Fault> {
     let message = say!("no equation gives the output {name}");
     let fault = Fault::new(UNUSED, role.span.clone(), message);
     let fault = fault.label(say!("an output stands on the left of an equation"));
-    (role.value == RoleWord::Output).then(|| {
-        fault.help(say!(
+    (role.value == RoleWord::Output).then(|| match undeclared {
+        Some(given) => fault.help(say!(
+            "an equation gives {given}: call the column by one name in both places"
+        )),
+        None => fault.help(say!(
             "write the equation of {name}, or say what else it is: \"covariate\" is a condition that was recorded"
-        ))
+        )),
     })
 }
 

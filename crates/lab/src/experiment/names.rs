@@ -274,11 +274,35 @@ impl Checker<'_> {
                 })
             }
             Err(faults) => {
+                let faults = match self.name_with_blank(&text.value) {
+                    Some(fault) => vec![fault],
+                    None => faults,
+                };
                 let faults: Vec<Fault> = faults.into_iter().map(|f| f.moved(place)).collect();
                 self.faults.extend(faults);
                 None
             }
         }
+    }
+
+    /// What is wrong with an equation that uses the name of a column as it stands in a table, with a blank; at its place in the equation.
+    fn name_with_blank(&self, equation: &str) -> Option<Fault> {
+        let columns = entries(&self.source.table.columns).iter();
+        let declared = columns.map(|(name, _)| name.as_str());
+        let left = equation.split('=').next().unwrap_or_default().trim();
+        let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == ' ';
+        let left = Some(left).filter(|left| left.chars().all(is_word));
+        let mut names = declared.chain(left).filter(|name| name.contains(' '));
+        let (name, at) = names.find_map(|name| Some((name, equation.find(name)?)))?;
+        let joined = name.replace(' ', "_");
+        let message = say!("a name in an equation has no blank: `{name}`");
+        Some(
+            Fault::new(UNKNOWN_SYMBOL, at..at + name.len(), message)
+                .label(say!("two words"))
+                .help(say!(
+                    "write {joined}, and below [columns] which column it is: {joined} = {{ column = \"{name}\" }}"
+                )),
+        )
     }
 
     /// Names that only omitted terms need.

@@ -58,7 +58,9 @@ impl<'s> Checker<'s> {
         let before = self.faults.len();
         let column = per_row.then_some("`role = \"u\"`");
         let said: Vec<&str> = there.iter().map(|(key, _)| *key).chain(column).collect();
-        if said.len() != 1 && !table.refused {
+        self.only_with_u(table);
+        let is_told = said.is_empty() && self.faults.len() > before;
+        if said.len() != 1 && !table.refused && !is_told {
             self.faults.push(not_one_way(stated.span.clone(), &said));
         }
         if dof <= 0.0 {
@@ -66,7 +68,6 @@ impl<'s> Checker<'s> {
             self.faults
                 .push(Fault::new(NOISE, stated.span.clone(), message));
         }
-        self.only_with_u(table);
         let (_, way) = there.pop()?;
         (self.faults.len() == before && said.len() == 1).then(|| (way, stated.span.clone()))
     }
@@ -119,11 +120,25 @@ impl<'s> Checker<'s> {
     }
 
     fn only_with_u(&mut self, table: &NoiseTable) {
-        let with_u = [("walk", &table.walk), ("resolution", &table.resolution)];
-        for (key, stated) in with_u {
+        let with_u = [
+            (
+                "walk",
+                &table.walk,
+                say!("state `u` beside it; without `u` noise that wanders is looked for by itself"),
+            ),
+            (
+                "resolution",
+                &table.resolution,
+                say!(
+                    "state `u` beside it; where the noise is estimated, the step of a display stands with its column: [columns] NAME = {{ resolution = … }}"
+                ),
+            ),
+        ];
+        for (key, stated, help) in with_u {
             if let (Some(stated), None) = (stated, &table.u) {
                 let fault = Fault::new(NOISE, stated.span.clone(), say!("`{key}` goes with `u`"));
-                self.faults.push(fault.label(say!("`u` is missing")));
+                self.faults
+                    .push(fault.label(say!("`u` is missing")).help(help));
             }
         }
     }

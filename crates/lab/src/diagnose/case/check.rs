@@ -6,12 +6,13 @@ use super::candidates;
 use super::{Case, Column, Purpose, Settings, columns, inputs};
 use crate::diagnose::faults::MISSING;
 use crate::experiment::checker::{Checker, made, opened};
+use crate::experiment::entries::RoleWord;
 use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::Source;
 use crate::experiment::symbols::quantity;
 use crate::experiment::tables::{ExperimentTable, RecordingTable};
 use crate::experiment::{Purpose as Use, inferred, positions};
-use crate::recording::{Recording, Request};
+use crate::recording::{Labels, Recording, Request};
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
@@ -126,6 +127,7 @@ impl Checker<'_> {
                 .to_string_lossy()
                 .into_owned()
         };
+        let backwards = backwards(&columns, recorded);
         Some(Case {
             title: file
                 .title
@@ -133,7 +135,7 @@ impl Checker<'_> {
                 .map_or_else(stem, |title| title.value.clone()),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
-            remarks: [experiment.remarks, disused(self.source, file)].concat(),
+            remarks: [experiment.remarks, disused(self.source, file), backwards].concat(),
             text: self.source.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
             units: self.units.clone(),
@@ -217,6 +219,31 @@ fn disused(source: &Source, file: &ExperimentTable) -> Vec<Said> {
         .filter(|(_, place)| place.as_ref().is_some_and(|place| !source.is_base(place)))
         .map(|(key, _)| say!("{key} is used by `calibrate` only"))
         .collect()
+}
+
+/// Remarks on clocks that go back: what follows its past, such as a lag, is looked for in the order of the rows. Runs may have clocks of
+/// their own.
+fn backwards(columns: &[Column], recorded: &Recording) -> Vec<Said> {
+    let runs: Vec<&Labels> = (columns.iter().filter(|column| column.role == RoleWord::Run))
+        .filter_map(Column::labels)
+        .collect();
+    let goes_on = |row: usize| {
+        let mut runs = runs.iter();
+        runs.all(|labels| labels.of_row[row] == labels.of_row[row - 1])
+    };
+    let of_clock = |clock: &Column| {
+        let times = clock.numbers()?;
+        let mut back = (1..times.len()).filter(|row| times[*row] < times[row - 1] && goes_on(*row));
+        let (first, name) = (back.next()?, &clock.name);
+        let (line, count) = (recorded.line(first), 1 + back.count());
+        Some(say!(
+            "The time {name} goes back in {count} of the rows, first in line {line}; a lag and noise that wanders are looked for in the order of the rows. Sort them by time; where a run has a clock of its own, give the runs labels in a column of the role `run`."
+        ))
+    };
+    let clocks = columns
+        .iter()
+        .filter(|column| column.role == RoleWord::Time);
+    clocks.filter_map(of_clock).collect()
 }
 
 fn place<T>(stated: &Slot<T>) -> Option<std::ops::Range<usize>> {

@@ -40,12 +40,15 @@ pub(super) fn of_instruments<'f>(
     fitted: &FittedModel<'f>,
     share: (usize, usize),
 ) -> Vec<Factor<'f>> {
-    let is_one =
-        |factor: &Factor| matches!(factor.column.role, Role::Run | Role::Factor | Role::Axis);
-    factors(fitted, share).filter(is_one).collect()
+    let factors = factors(fitted, share);
+    factors.filter(Factor::is_of_instruments).collect()
 }
 
 impl Factor<'_> {
+    fn is_of_instruments(&self) -> bool {
+        matches!(self.column.role, Role::Run | Role::Factor | Role::Axis)
+    }
+
     pub(super) fn text(&self, level: u32) -> &str {
         (self.labels.levels.get(level as usize)).map_or("", String::as_str)
     }
@@ -165,7 +168,11 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
 /// Combinations of each two columns: all pairs together are as likely beforehand as one effect of a higher order, however many columns
 /// of labels there are.
 fn interactions(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let several = of_instruments(fitted, (2, 3));
+    let places = is_place(fitted);
+    let is_one = |factor: &Factor<'_>| {
+        factor.is_of_instruments() || (places && factor.column.role == Role::Position)
+    };
+    let several: Vec<Factor<'_>> = factors(fitted, (2, 3)).filter(is_one).collect();
     let pairs = several.iter().enumerate();
     let pairs = pairs.flat_map(|(at, other)| several[..at].iter().map(move |one| [one, other]));
     let found: Vec<Vec<Cell>> = pairs.map(|pair| combinations(fitted, pair)).collect();

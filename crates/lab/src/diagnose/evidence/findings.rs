@@ -1,12 +1,14 @@
 //! What is answered: verdict, slots, alternatives.
 
+use gumption_core::special::student_t_two_sided_quantile;
 use nalgebra::{DMatrix, DVector};
 
 /// Probability from which on a name stands alone: posteriors between that of a credible list and this one are
 /// right less often than they say, because catalogues have gaps.
 pub(super) const ALONE: f64 = 0.99;
 
-use gumption_core::special::student_t_two_sided_quantile;
+/// Coverage probability of the intervals of sizes and parameters.
+pub const COVERAGE: f64 = 0.95;
 
 /// The answer in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -155,7 +157,7 @@ impl Alternative {
 
     /// Coverage factor of the 95 % intervals of the coefficients, of Student's t (GUM, G.3.2).
     pub fn coverage_factor(&self) -> f64 {
-        student_t_two_sided_quantile(0.95, self.dof)
+        student_t_two_sided_quantile(COVERAGE, self.dof)
     }
 }
 

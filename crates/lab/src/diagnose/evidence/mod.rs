@@ -109,7 +109,9 @@ pub use directions::{
 };
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
-pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
+pub use findings::{
+    Alternative, COVERAGE, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict,
+};
 pub use fit::singles;
 pub use grades::{Likeness, is_severe, likeness};
 pub use locate::{Cell, Located, locate};

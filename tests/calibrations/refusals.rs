@@ -197,6 +197,18 @@ fn every_command_refuses_the_same_mistakes() {
             changed("U = K*omega + b", "ln(U) = K*omega + b"),
             "the left side of an equation is no formula",
         ),
+        (
+            changed("U = K*omega + b", "V = K*omega + b"),
+            "did you mean `U`?",
+        ),
+        (
+            changed("U = K*omega + b", "the output = K*omega + b"),
+            "write the_output, and below [columns]",
+        ),
+        (
+            EXPERIMENT.to_owned() + "[noise]\nresolution = \"0.1 mV\"\n",
+            "the step of a display stands with its column",
+        ),
     ];
     // What a diagnosis is told of some of its parameters it need not be told of all; a calibration lists all or none.
     let [calibrated, diagnosed] = both(&changed("K*omega + b", "K*omega + b + c"));

@@ -30,6 +30,32 @@ fn instruments_that_were_exchanged_in_one_run_show_in_its_combinations() {
     assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
 }
 
+/// One who puts loads down beside the middle of the pan weighs them wrong on one side of it only; four rows of 120 show it.
+#[test]
+fn what_one_operator_does_at_one_place_is_a_combination() {
+    let mut noise = Noise(73);
+    let mut rows = "operator,place,load [g],shown [g]\n".to_owned();
+    for row in 0..120 {
+        let (operator, place, load) = (row % 3, row / 3 % 5, 100.0 * f64::from(1 + row / 15 % 2));
+        let (operator, place) = (operator as usize, place as usize);
+        let own = if (operator, place) == (1, 2) {
+            2e-5
+        } else {
+            0.0
+        };
+        let shown = load * (1.0 + own) + 0.0004 * noise.normal();
+        let operator = ["Anna", "Ben", "Chen"][operator];
+        let place = ["middle", "front", "left", "back", "right"][place];
+        let _ = writeln!(rows, "{operator},{place},{load},{shown:.5}");
+    }
+    let case = "equations = \"shown = zero + k*load\"\n[columns]\nshown = \"output\"\nload = \"stimulus\"\nplace = \"position\"\noperator = \"operator\"\n";
+    let found = diagnosed("operator-at-a-place", &rows, case);
+    assert_eq!(first_names(&found), ["combination-scale"], "{found}");
+    let variant = &found["effects"][0]["named"][0]["variants"][0];
+    let label = variant["label"].as_str().unwrap_or_default();
+    assert!(label.contains("Ben") && label.contains("left"), "{label}");
+}
+
 #[test]
 fn what_one_operator_makes_of_one_part_is_a_combination() {
     let mut noise = Noise(72);

@@ -303,6 +303,9 @@ impl Evidence<'_> {
     /// second order finds of them: all of it, less what is left when they stay at their estimates. Nothing where that
     /// is not seen in the digits that are printed.
     fn vanished(&self, measurand: usize) -> Option<FindingKind> {
+        if self.is_overestimated(measurand) {
+            return None;
+        }
         let seen: Vec<Sight> = (0..self.budget.inputs.len())
             .map(|input| self.sight(measurand, input))
             .collect();
@@ -332,6 +335,18 @@ impl Evidence<'_> {
                 .collect(),
             shift,
             u_effect,
+        })
+    }
+
+    /// Whether first order ascribes to one standard uncertainty of an input more than half of the interval of the trials, beyond which
+    /// one trial of three would lie: the model cannot be expanded over so much, and its derivatives tell of none of the inputs.
+    fn is_overestimated(&self, measurand: usize) -> bool {
+        let result = &self.results[measurand];
+        result.monte_carlo.as_ref().is_some_and(|mc| {
+            let [low, high] = mc.symmetric;
+            let inputs = result.gum.inputs.iter();
+            let most = inputs.map(|line| line.contribution.abs());
+            most.fold(0.0, f64::max) > 0.5 * (high - low)
         })
     }
 

@@ -9,6 +9,7 @@
 use std::collections::BTreeMap;
 
 use gumption_core::statistics::{effective_freedom, norm};
+use nalgebra::{DMatrix, DVector};
 
 use super::covariance::{Covariance, Form};
 use super::result::Freedom;
@@ -73,14 +74,47 @@ pub(super) fn effective(covariance: &Covariance, form: &[(usize, f64)]) -> Effec
     }
 }
 
-/// ν of the covariance matrix of several combinations. Each is divided by its `scales` first: 1
-/// where all measurands have one unit, u(y) otherwise, so that the result does not depend on the
-/// units.
+/// ν of the covariance matrix of several combinations. Each is divided by its `scales` first: by u(y) the result
+/// does not depend on the units.
 pub(super) fn effective_joint(
     covariance: &Covariance,
     forms: &[&Form],
     scales: &[f64],
 ) -> Effective {
+    let terms = terms_of(covariance, forms);
+    Effective {
+        dof: willink_hall(&parts(covariance, &terms, forms, scales)),
+        origin: origin(&terms),
+    }
+}
+
+/// How the estimated variances of several combinations, each divided by its `scales` first, go together: the correlation
+/// coefficients of u²(y_a) and u²(y_b), which the terms k that act on both give in common. The parts of one term are known from the same
+/// s², be it of readings taken together or of the residuals of a fit: the variances v_aa and v_bb of its parts have the covariance
+/// 2·v_aa·v_bb/ν_k. Zero where a variance is exactly known.
+pub(super) fn of_variances(
+    covariance: &Covariance,
+    forms: &[&Form],
+    scales: &[f64],
+) -> DMatrix<f64> {
+    let count = forms.len();
+    let terms = terms_of(covariance, forms);
+    let mut sums: DMatrix<f64> = DMatrix::zeros(count, count);
+    for (vectors, dof) in parts(covariance, &terms, forms, scales) {
+        let squares = |vector: &Vec<f64>| vector.iter().map(|x| x * x).sum::<f64>();
+        let own = DVector::from_iterator(count, vectors.iter().map(squares));
+        sums.ger(1.0 / dof, &own, &own, 1.0);
+    }
+    DMatrix::from_fn(count, count, |a, b| {
+        match sums[(a, a)] > 0.0 && sums[(b, b)] > 0.0 {
+            true => sums[(a, b)] / (sums[(a, a)] * sums[(b, b)]).sqrt(),
+            false => 0.0,
+        }
+    })
+}
+
+/// The independent terms of several combinations.
+fn terms_of(covariance: &Covariance, forms: &[&Form]) -> Vec<Term> {
     let mut active: Vec<usize> = forms
         .iter()
         .flat_map(|form| {
@@ -91,23 +125,26 @@ pub(super) fn effective_joint(
         .collect();
     active.sort_unstable();
     active.dedup();
-    let terms = independent_terms(covariance, active);
-    let parts: Vec<(Vec<Vec<f64>>, f64)> = terms
-        .iter()
-        .map(|term| {
-            let vectors = forms.iter().zip(scales).map(|(form, scale)| {
-                term.standard(covariance, form)
-                    .into_iter()
-                    .map(|value| value / scale)
-                    .collect()
-            });
-            (vectors.collect(), term.dof)
-        })
-        .collect();
-    Effective {
-        dof: willink_hall(&parts),
-        origin: origin(&terms),
-    }
+    independent_terms(covariance, active)
+}
+
+/// The standard coordinates of each combination in each term, with the ν of the term.
+fn parts(
+    covariance: &Covariance,
+    terms: &[Term],
+    forms: &[&Form],
+    scales: &[f64],
+) -> Vec<(Vec<Vec<f64>>, f64)> {
+    let of_term = |term: &Term| {
+        let vectors = forms.iter().zip(scales).map(|(form, scale)| {
+            term.standard(covariance, form)
+                .into_iter()
+                .map(|value| value / scale)
+                .collect()
+        });
+        (vectors.collect(), term.dof)
+    };
+    terms.iter().map(of_term).collect()
 }
 
 /// Willink and Hall (Metrologia 39 (2002) 361): ν_eff = S(V)/Σ_k S(V_k)/ν_k with
@@ -310,7 +347,7 @@ fn origin(terms: &[Term]) -> Origin {
 mod tests {
     use super::*;
     use crate::budget::{Group, Law};
-    use nalgebra::DMatrix;
+    use nalgebra::{DMatrix, DVector};
 
     fn welch_satterthwaite(parts: &[(f64, f64)]) -> f64 {
         effective_freedom(parts.iter().copied())

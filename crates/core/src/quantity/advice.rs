@@ -19,6 +19,12 @@ pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
             Some(say!("write `°F` or `degF`; with the farad, `F·°`"))
         }
         ("R" | "%R", "H") => Some(say!("write `%RH`")),
+        ("Pa" | "hPa" | "kPa" | "MPa" | "bar" | "mbar" | "psi", "g") => Some(say!(
+            "write `{first}`, and say in the description that it is above the ambient pressure; with the gram, `g·{first}`"
+        )),
+        ("Pa" | "hPa" | "kPa" | "MPa" | "bar" | "mbar" | "psi", "a") => Some(say!(
+            "write `{first}`, and say in the description that it is absolute; with the year, `a·{first}`"
+        )),
         ("dB", "A" | "C") => Some(say!(
             "declare the weighted level in the [unit] table, `dB{second} = \"dB\"`, and write `dB{second}`"
         )),
@@ -33,6 +39,22 @@ pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
         let span = first.span.start..second.span.end;
         let message = say!("`{}` and `{}` would be multiplied", first.name, second.name);
         Some(UnitError::new(UNKNOWN_UNIT, span, message).help(help))
+    })
+}
+
+/// A power per millikelvin: `W/mK` is the usual hasty form of a thermal conductivity.
+pub(super) fn hasty(terms: &[NamedTerm]) -> Option<UnitError> {
+    let [power, millikelvin] = terms else {
+        return None;
+    };
+    let is_power = ["W", "mW", "kW"].contains(&power.name.as_str());
+    let is_below = millikelvin.name == "mK" && millikelvin.exponent == -power.exponent;
+    (is_power && is_below).then(|| {
+        let (span, power) = (millikelvin.span.clone(), &power.name);
+        let message = say!("`mK` is the millikelvin");
+        UnitError::new(UNKNOWN_UNIT, span, message).help(say!(
+            "write `{power}/(m·K)`; what is meant for each millikelvin is a thousand times as much for each kelvin"
+        ))
     })
 }
 

@@ -102,7 +102,8 @@ impl UnitTable {
     /// The first fault of the text.
     pub fn parse(&self, text: &str) -> Result<Unit, UnitError> {
         let parsed = parse(text, Numbers::OneOnly)?;
-        if let Some(error) = advice::torn(&parsed.terms) {
+        let wrong = advice::torn(&parsed.terms).or_else(|| advice::hasty(&parsed.terms));
+        if let Some(error) = wrong {
             return Err(error);
         }
         let scale =
@@ -608,6 +609,9 @@ mod tests {
             ("deg C", 0..5, "`°C`"),
             ("V·deg F", 3..8, "`°F`"),
             ("dB(A)", 0..4, "`dBA`"),
+            ("bar(g)", 0..5, "above the ambient pressure"),
+            ("kPa(a)", 0..5, "absolute"),
+            ("W/mK", 2..4, "`W/(m·K)`"),
         ] {
             let error = error(text);
             assert_eq!(error.span, marked, "{text}");

@@ -70,6 +70,7 @@ impl<'a> Stop<'a> {
             .or_else(|| self.text())
             .or_else(|| self.header())
             .or_else(|| self.open_list())
+            .or_else(|| self.no_comma())
             .or_else(|| self.no_equals_sign())
             .or_else(|| self.decimal_point())
             .or_else(|| self.leading_zero())
@@ -88,6 +89,9 @@ impl<'a> Stop<'a> {
         let line = self.text[line_of(self.span.start, self.text)].trim();
         let help = match line.starts_with('[') {
             true => of_second_header(line, &self.text[..self.span.start]),
+            false if self.marked == "model" => say!(
+                "a key can be stated once in a table; the lines of a model stand in one text between three quotes"
+            ),
             false => {
                 say!("a key can be stated once in a table; several components stand in a list")
             }
@@ -297,6 +301,25 @@ impl<'a> Stop<'a> {
             let message = say!("the list is not closed by `{bracket}`");
             self.refused(message, say!("expected `,` or `{bracket}`"))
         })
+    }
+
+    /// Two keys of a table in braces with nothing between them: the parser stops at the second `=`.
+    fn no_comma(&self) -> Option<Fault> {
+        if !self.says("extra assignment between key-value pairs") {
+            return None;
+        }
+        let before = self.text.get(..self.span.start)?.trim_end();
+        let part_of_key = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+        let key = &before[before.trim_end_matches(part_of_key).len()..];
+        let message = say!("there is no comma in front of `{key}`");
+        let place = before.len() - key.len()..before.len();
+        Some(
+            Fault::new(TOML_SYNTAX, place, message)
+                .label(say!("expected `,` before this"))
+                .help(say!(
+                    "keys in braces stand with commas between them: {{ value = 1.5, u = 0.02 }}"
+                )),
+        )
     }
 
     fn no_equals_sign(&self) -> Option<Fault> {

@@ -109,7 +109,10 @@ impl Checker<'_> {
         };
         if table.prior.is_none() {
             let (owner, estimate) = (context.owner, expected.shape);
-            self.remark(say!("{owner}: of {n} counted events the estimate is {estimate} and u² = {estimate}, by the uniform prior (JCGM 101, 6.4.11). ISO 11929 and n ± √n are prior = \"reciprocal\": estimate {n}. Write the prior that is meant. The number of repeated readings is no `count`: it follows from `readings`, or is `of` beside `pooled`."));
+            self.remark(match stated.value {
+                0 => say!("{owner}: of no counted event the estimate is {estimate} and u² = {estimate}, by the uniform prior (JCGM 101, 6.4.11); with prior = \"jeffreys\" both are 0.5. Write the prior that is meant."),
+                n => say!("{owner}: of {n} counted events the estimate is {estimate} and u² = {estimate}, by the uniform prior (JCGM 101, 6.4.11). ISO 11929 and n ± √n are prior = \"reciprocal\": estimate {n}. Write the prior that is meant. The number of repeated readings is no `count`: it follows from `readings`, or is `of` beside `pooled`."),
+            });
         }
         let how = format!("n = {n}, G({}, 1)", expected.shape);
         self.centred(expected.into(), how, &stated.key)
@@ -159,7 +162,10 @@ impl Checker<'_> {
                 proportion.alpha,
                 proportion.alpha + proportion.beta
             );
-            self.remark(say!("{owner}: of {s} successes in {n} trials the estimate is (s + 1)/(n + 2) = {estimate}, by the uniform prior. s/n is prior = \"reciprocal\". Write the prior that is meant."));
+            self.remark(match s == 0 || s == n {
+                true => say!("{owner}: of {s} successes in {n} trials the estimate is (s + 1)/(n + 2) = {estimate}, by the uniform prior; with prior = \"jeffreys\" it is (s + 1/2)/(n + 1). Write the prior that is meant."),
+                false => say!("{owner}: of {s} successes in {n} trials the estimate is (s + 1)/(n + 2) = {estimate}, by the uniform prior. s/n is prior = \"reciprocal\". Write the prior that is meant."),
+            });
         }
         let how = format!(
             "{} of {}, B({}, {})",

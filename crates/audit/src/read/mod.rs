@@ -345,7 +345,7 @@ fn budget(
         ..Claimed::default()
     };
     let mut raw = found.raw.clone();
-    claimed.unplaced.extend(unread_units(&raw));
+    claimed.unplaced.extend(unread_cells(&raw));
     let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
         let of_row = stating.clone().flat_map(|input| &input.raw);
@@ -449,15 +449,19 @@ fn budget(
     claimed
 }
 
-/// What stands in the place of units and is none, each once.
-fn unread_units(raw: &[table::Raw]) -> Vec<Unplaced> {
-    let mut units: Vec<Unplaced> = Vec::new();
-    for unit in raw.iter().filter_map(|raw| raw.row.unread_unit.as_ref()) {
-        if units.iter().all(|known| known.text != unit.text) {
-            units.push(unit.clone());
+/// What stands in the place of units and distributions and is none, each once.
+fn unread_cells(raw: &[table::Raw]) -> Vec<Unplaced> {
+    let mut unread: Vec<Unplaced> = Vec::new();
+    let cells = |raw: &table::Raw| {
+        let row = &raw.row;
+        [row.unread_unit.clone(), row.unread_distribution.clone()]
+    };
+    for cell in raw.iter().flat_map(cells).flatten() {
+        if unread.iter().all(|known| known.text != cell.text) {
+            unread.push(cell);
         }
     }
-    units
+    unread
 }
 
 /// Whether u_c, or U by its k, is the root of the sum of squares of what the rows state: then nothing is correlated here.

@@ -446,3 +446,33 @@ fn nothing_is_a_part_of_an_infinite_u_c() {
         assert!(![75, 76].contains(&rule), "{rule}: {numbers}");
     }
 }
+
+/// The forms of M3003 abbreviate the distributions: √(0.25² + 0.1155² + 0.0577² + 0.09²) = 0.2955 ″, where the half-width of
+/// the drift as it stands gives 0.3375 ″.
+#[test]
+fn letters_stand_for_distributions() {
+    let sheet = |[normal, flat]: [&str; 2], drift: &str, whole: &str| {
+        format!(
+            "Angle calibrator\nSource,Limits ±,Unit,Distr.,Sensitivity,Contribution u_i(y) / ″\n\
+             \"Autocollimator, certificate (k=2)\",0.50,″,{normal},1,0.25\nPolygon drift,0.20,″,{flat},1,{drift}\n\
+             Resolution,0.10,″,{flat},1,0.058\n\"Repeatability, standard error\",0.09,″,{normal},1,0.09\n{whole}\n"
+        )
+    };
+    let sound =
+        "Combined standard uncertainty u_c,,,,,0.295\nExpanded uncertainty U (k = 2),,,,,0.59";
+    let undivided =
+        "Combined standard uncertainty u_c,,,,,0.338\nExpanded uncertainty U (k = 2),,,,,0.68";
+    for letters in [["N", "R"], ["n", "U"], ["gauss", "square"], ["N.", "R."]] {
+        is_sound("sheet.csv", &sheet(letters, "0.115", sound));
+    }
+    let slip = first("sheet.csv", &sheet(["N", "R"], "0.200", undivided));
+    assert_eq!(slip, "root3-missing@Polygon drift");
+    // What is no distribution is told.
+    let claims = understood("sheet.csv", &sheet(["N", "Q"], "0.115", sound));
+    let unread: Vec<&str> = claims[0]
+        .unplaced
+        .iter()
+        .map(|cell| cell.text.as_str())
+        .collect();
+    assert_eq!(unread, ["Q"]);
+}

@@ -476,3 +476,25 @@ fn letters_stand_for_distributions() {
         .collect();
     assert_eq!(unread, ["Q"]);
 }
+
+/// The form of the DKD writes u in g and contributions in mg: √(22.5² + 8.66² + 14.4² + 5.8²) mg = 28.7 mg = 0.0287 g, which is
+/// 0.0514 g where the amounts are added.
+#[test]
+fn cells_of_a_column_have_their_own_units() {
+    let sheet = |[m_n, drift, reading, air]: [&str; 4], u_c: &str, expanded: &str| {
+        format!(
+            "Messunsicherheitsbudget Gewichtstück 10 kg\nModellgleichung: m_X = m_N + δm_D + Δm + δm_B\n\n\
+             Größe Xi;Schätzwert xi;Standardmessunsicherheit u(xi);Verteilung;Freiheitsgrad νi;Sensitivitätskoeffizient ci;Unsicherheitsbeitrag ui(y)\n\
+             m_N;10000,005 g;{m_n};Normal;50;1;22,5 mg\nδm_D;0 g;{drift};Rechteck;∞;1;8,66 mg\n\
+             Δm;0,020 g;{reading};Normal;11;1;14,4 mg\nδm_B;0 g;{air};Rechteck;∞;1;5,8 mg\n\
+             m_X;10000,025 g;{u_c};;74;;\n\nErgebnis: m_X = 10000,025 g ± {expanded} (k = 2)\n"
+        )
+    };
+    let in_g = ["0,0225 g", "0,00866 g", "0,0144 g", "0,0058 g"];
+    let in_mg = ["22,5 mg", "8,66 mg", "14,4 mg", "5,8 mg"];
+    for u in [in_g, in_mg] {
+        is_sound("sheet.csv", &sheet(u, "0,0287 g", "0,057 g"));
+    }
+    let added = sheet(in_g, "0,0514 g", "0,10 g").replace(";74;", ";;");
+    assert!(first("sheet.csv", &added).starts_with("linear-sum"));
+}

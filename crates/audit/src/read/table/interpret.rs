@@ -68,6 +68,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         }
         row.leave_what_is_of_another_unit();
         row.convert_to_one_unit(&y_unit);
+        row.convert_contribution(&y_unit);
     }
     add_absent(claimed);
     settle_by_amount(claimed);
@@ -271,6 +272,17 @@ impl Row {
         self.stated.standard().is_some_and(|(stated, _)| {
             are_bare && distance(stated * fraction * value.value.abs()) < distance(stated)
         })
+    }
+
+    /// The contribution in the unit of the result: cells of one column may each have their own.
+    fn convert_contribution(&mut self, y_unit: &str) {
+        let Some(figure) = &mut self.contribution else {
+            return;
+        };
+        if let Some(factor) = units::factor(&figure.unit, y_unit).filter(|factor| *factor != 1.0) {
+            *figure = figure.clone().scaled(factor);
+            figure.unit = y_unit.to_owned();
+        }
     }
 
     /// Figures of ± and of what is stated in the unit of u, where all units are known.

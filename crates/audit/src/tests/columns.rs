@@ -498,3 +498,25 @@ fn cells_of_a_column_have_their_own_units() {
     let added = sheet(in_g, "0,0514 g", "0,10 g").replace(";74;", ";;");
     assert!(first("sheet.csv", &added).starts_with("linear-sum"));
 }
+
+/// `Contribution (%)` holds shares in the variance where they total 100: 0.050² is 13.6 % of 0.1358² mg².
+#[test]
+fn shares_in_percent_total_a_hundred() {
+    let sheet = |title: &str, total: &str, u_c: &str, expanded: &str| {
+        format!(
+            "{title}\nComponent;Value;Distribution;Divisor;Standard uncertainty (mg);Contribution (%)\n\
+             Standard (certificate, U k=2);0,10 mg;normal;2;0,050;13,6\nDrift of standard;± 0,06 mg;uniform;√3;0,0346;6,5\n\
+             Resolution (d = 0,1 mg);± 0,05 mg;uniform;√3;0,0289;4,5\nEccentricity;± 0,15 mg;uniform;√3;0,0866;40,7\n\
+             Repeatability, standard deviation;0,08 mg;normal;1;0,08;34,7\n{total}\
+             Combined standard uncertainty;;;;{u_c};\nExpanded uncertainty (k = 2);;;;{expanded};\n"
+        )
+    };
+    for title in ["Uncertainty budget", "Uncertainty budget - balance 200 g"] {
+        for total in ["", ";;;;;100\n", ";;;;;\n"] {
+            is_sound("sheet.csv", &sheet(title, total, "0,136", "0,27"));
+        }
+        // The amounts added: 0.050 + 0.0346 + 0.0289 + 0.0866 + 0.08.
+        let slip = first("sheet.csv", &sheet(title, "", "0,280", "0,56"));
+        assert_eq!(slip, "linear-sum");
+    }
+}

@@ -520,3 +520,27 @@ fn shares_in_percent_total_a_hundred() {
         assert_eq!(slip, "linear-sum");
     }
 }
+
+/// The form of UKAS and NABL: `Std. unc. (µm)` is value / divisor · c, 1 °C/1.732 · 1.15 µm/°C = 0.664 µm. √(0.06² + 0.058² +
+/// 0.664² + 2.887² + 1.6²) = 3.368 µm; with c left out 0.577 stands for 0.664, and it is 3.352 µm.
+#[test]
+fn u_may_have_its_coefficient_in_it() {
+    let sheet = |head: &str, made: &str, u_c: &str, nu: &str| {
+        format!(
+            "Caliper 150 mm\nContributor,Input uncertainty,Unit,Prob. distribution,Divisor,Sens. coeff.,{head},ν\n\
+             \"Gauge block calibration (U, k=2)\",0.12,µm,Normal,2,1,0.06,∞\nGauge block drift,0.10,µm,Rectangular,1.732,1,0.058,∞\n\
+             Temperature difference ±1 °C,1,°C,Rectangular,1.732,1.15,{made},∞\n\
+             Resolution (0.01 mm → ±5 µm),5,µm,Rectangular,1.732,1,2.887,∞\n\
+             \"Repeatability, std. dev. of mean, n=10\",1.6,µm,Normal,1,1,1.6,9\n\
+             ,,,,,u_c,{u_c},\n,,,,,νeff,{nu},\n,,,,,k,2,\n,,,,,U (µm),6.7,\n"
+        )
+    };
+    for head in ["Std. unc. (µm)", "ui(y) (µm)"] {
+        is_sound("sheet.csv", &sheet(head, "0.664", "3.368", "176"));
+        // 3.368 without the first row is 3.367, and no explanation of 3.352.
+        let (verdict, slips) = answer("sheet.csv", &sheet(head, "0.577", "3.352", "173"));
+        assert_eq!(verdict, Verdict::WithoutEffect);
+        assert_eq!(slips[0], "c-one@Temperature difference ±1 °C");
+        assert!(!slips.iter().any(|slip| slip.starts_with("row-dropped")));
+    }
+}

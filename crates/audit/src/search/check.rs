@@ -388,8 +388,8 @@ pub fn reported(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f6
     }
 }
 
-/// Whether U, or u_c where no U is claimed, would be printed as it is claimed: rounded as the laboratory rounded what it
-/// `made`, to nearest or up, whichever of them its own figure shows. u_c is `open` by so much.
+/// Whether U, or u_c where no U is claimed, would be printed as it is claimed: rounded by the rule of the sheet, else as the
+/// laboratory rounded what it `made`, to nearest or up, whichever of them its own figure shows. u_c is `open` by so much.
 pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -> bool {
     let footer = &case.claimed.footer;
     let Some(expanded) = &footer.expanded else {
@@ -404,6 +404,11 @@ pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -
         let above = expanded.value - x;
         above >= -open - tolerance && above < 2.0 * half + open + tolerance
     };
+    match case.claimed.rounding {
+        RoundingStated::Nearest => return nearest(right.expanded, open),
+        RoundingStated::Up => return up(right.expanded, open),
+        RoundingStated::Unstated => {}
+    }
     match (nearest(made.expanded, 0.0), up(made.expanded, 0.0)) {
         (true, false) => nearest(right.expanded, open),
         (false, true) => up(right.expanded, open),

@@ -544,3 +544,28 @@ fn u_may_have_its_coefficient_in_it() {
         assert!(!slips.iter().any(|slip| slip.starts_with("row-dropped")));
     }
 }
+
+/// Three weights of 0.25 mg each that are fully correlated, and 0.10 mg: √(0.75² + 0.1²) = 0.757 mg, where without correlations
+/// it is 0.444 mg.
+#[test]
+fn a_line_may_state_several_correlations() {
+    let sheet = |line: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Three 1 kg weights as a 3 kg standard\n\"Model: m = m1 + m2 + m3 + d\"\n\"{line}\"\n\
+             Symbol,Component,Uncertainty (mg),Distribution,Divisor,u (mg),c\nm1,Weight 1 certificate U k=2,0.50,normal,2,0.25,1\n\
+             m2,Weight 2 certificate U k=2,0.50,normal,2,0.25,1\nm3,Weight 3 certificate U k=2,0.50,normal,2,0.25,1\n\
+             d,Repeatability,0.10,normal,1,0.10,1\n,Combined,,,,{u_c},\n,Expanded k=2,,,,{expanded},\n"
+        )
+    };
+    for line in [
+        "r(m1,m2) = r(m1,m3) = r(m2,m3) = 1",
+        "r(m1,m2)=1, r(m1,m3)=1, r(m2,m3)=1",
+        "r(m1,m2) = 1; r(m1,m3) = 1; r(m2,m3) = 1",
+        "r(m1 ; m2) = r(m1 ; m3) = r(m2 ; m3) = 1",
+        "m1, m2 and m3 are fully correlated (r = 1)",
+    ] {
+        is_sound("sheet.csv", &sheet(line, "0.76", "1.5"));
+        let slip = first("sheet.csv", &sheet(line, "0.44", "0.89"));
+        assert_eq!(slip, "corr-ignored", "{line}");
+    }
+}

@@ -78,7 +78,7 @@ pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
 pub use unread::expanded as unread_expanded;
-pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, symbol_at};
+pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, lowered, symbol_at};
 
 use std::ops::Range;
 

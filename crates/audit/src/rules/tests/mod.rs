@@ -206,3 +206,38 @@ fn the_k_of_a_certificate_may_stand_in_its_column() {
     let undivided = fired("", "k", "2.00", "0.0194");
     assert!(undivided.contains(&77), "{undivided:?}");
 }
+
+/// A date is that of what stands in front of it: a standard is calibrated on another day than it is used.
+#[test]
+fn a_certificate_ends_on_the_day_that_its_words_name() {
+    let hits = |line: &str| -> Vec<String> {
+        let text = format!(
+            "Length of rod\n\"{line}\"\nSource,± value,unit,Distribution,Divisor,c,u_i(y) [µm]\n\
+             Alignment,0.5,µm,rectangular,√3,1,0.29\nRepeatability (std of mean),0.3,µm,normal,1,1,0.3\n\
+             u_c,,,,,,0.42\nU (k=2),,,,,,0.83\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        let of_rule = all.into_iter().filter(|finding| finding.rule == 80);
+        of_rule.map(|finding| finding.numbers).collect()
+    };
+    for line in [
+        "Reference standard calibrated on 2025-06-01, valid until 2027-06-01",
+        "Laser interferometer: calibrated on 2025-06-01, next calibration due 2027-06-01. Measured on 2026-03-04",
+        // Whether the standard or the device was calibrated on that day, is not said.
+        "Calibrated on 2026-03-04. The certificate of the laser: due date: 2025-01-15",
+        "Measured on 2026-03-04; the drift is due to the age of the lamp of 2025-01-01",
+    ] {
+        assert!(hits(line).is_empty(), "{line}: {:?}", hits(line));
+    }
+    for line in [
+        "Certificate valid until 2025-01-15; measured on 2026-03-04",
+        "Date of measurement: 2026-03-04. Certificate valid until 2025-01-15",
+        "Date of this budget: 2026-03-04; certificate valid until 2025-01-15",
+        "Date: 2026-03-04, laser No. 12, due 2025-01-15",
+        "Calibration date 2026-03-04; certificate of the standard expired 2025-01-15",
+    ] {
+        assert_eq!(hits(line), ["2025-01-15 < 2026-03-04"], "{line}");
+    }
+}

@@ -61,6 +61,11 @@ pub(super) fn no_resolution(seen: &Seen<'_>) -> Vec<Hit> {
         "分度",
         "量化",
         "估读",
+        "auflösung",
+        "ablesung",
+        "résolution",
+        "échelon",
+        "quantification",
     ];
     missing(is_calibration(seen) && !step && !rows_speak(seen, &words))
 }
@@ -75,6 +80,12 @@ pub(super) fn no_repeatability(seen: &Seen<'_>) -> Vec<Hit> {
         "重复性",
         "标准偏差",
         "a类",
+        "wiederhol",
+        "streuung",
+        "standardabweichung",
+        "répétabilité",
+        "fidélité",
+        "écart-type",
     ];
     missing(is_calibration(seen) && !type_a && !rows_speak(seen, &words))
 }
@@ -90,6 +101,9 @@ pub(super) fn no_drift(seen: &Seen<'_>) -> Vec<Hit> {
         "稳定性",
         "年变化",
         "老化",
+        "alterung",
+        "dérive",
+        "vieillissement",
     ];
     missing(is_calibration(seen) && !rows_speak(seen, &words))
 }
@@ -117,6 +131,10 @@ pub(super) fn no_temperature(seen: &Seen<'_>) -> Vec<Hit> {
         "温度",
         "膨胀",
         "温差",
+        "temperatur",
+        "ausdehnung",
+        "température",
+        "dilatation",
     ];
     let title = seen.claimed.title.to_lowercase();
     let thermal = depends.iter().any(|word| title.contains(word));

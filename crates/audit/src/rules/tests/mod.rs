@@ -241,3 +241,34 @@ fn a_certificate_ends_on_the_day_that_its_words_name() {
         assert_eq!(hits(line), ["2025-01-15 < 2026-03-04"], "{line}");
     }
 }
+
+/// What is in a row is not asked for, in whatever language of the heads that are read.
+#[test]
+fn french_and_german_rows_are_seen() {
+    let fired = |[drift, scatter, step]: [&str; 3]| -> Vec<u8> {
+        let text = format!(
+            "Grandeur;Source d'incertitude;Étendue ±;Loi de distribution;Diviseur;Incertitude-type u(xi);Coefficient de sensibilité;Contribution (µm)\n\
+             L_e;Étalon, certificate U (k=2);0,050 µm;normale;2;0,025 µm;1;0,025\nd_L;{drift};0,060 µm;rectangulaire;1,732;0,0346 µm;1;0,0346\n\
+             r;{scatter};0,012 µm;normale;1;0,012 µm;1;0,012\nq;{step};0,010 µm;rectangulaire;1,732;0,0058 µm;1;0,0058\n\n\
+             Incertitude-type composée u_c;;;;;;;0,0448 µm\nIncertitude élargie U (k=2);;;;;;;0,090 µm\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().map(|finding| finding.rule).collect()
+    };
+    let asked = |rules: &[u8]| [34, 35, 36].map(|rule| rules.contains(&rule));
+    let french = [
+        "Dérive de l'étalon",
+        "Répétabilité de la moyenne",
+        "Résolution",
+    ];
+    let german = ["Alterung des Normals", "Wiederholbarkeit", "Auflösung"];
+    for words in [french, german] {
+        assert_eq!(asked(&fired(words)), [false; 3], "{words:?}");
+    }
+    assert_eq!(
+        asked(&fired(["Pression", "Opérateur", "Humidité"])),
+        [true; 3]
+    );
+}

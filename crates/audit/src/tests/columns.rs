@@ -569,3 +569,16 @@ fn a_line_may_state_several_correlations() {
         assert_eq!(slip, "corr-ignored", "{line}");
     }
 }
+
+/// A triangle for the capacity of a flask (QUAM:2012, A1), which the title names: √(0.0408² + 0.0485² + 0.02²) = 0.0665 mL.
+#[test]
+fn a_title_may_name_the_glassware() {
+    let sheet = |title: &str| {
+        format!(
+            "{title}\nComponent,Value ±,Distribution,Divisor,c,u / mL\nCalibration ±0.1 mL,0.1 mL,triangular,√6,1,0.0408\n\
+             Temperature ±4 °C,4 °C,rectangular,√3,0.021 mL/°C,0.0485\nRepeatability,0.02 mL,normal,1,1,0.02\nu_c,,,,,0.0665\n\"U, k=2\",,,,,0.13\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("Volumetric flask 100 mL"));
+    assert!(first("sheet.csv", &sheet("Dispenser 100 mL")).starts_with("triangle@"));
+}

@@ -17,7 +17,7 @@ use super::relative::settle_by_amount;
 /// Turns words and columns of each row into what is known of it, and its figures into one unit.
 pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     let mean_of = claimed.reported_mean_of;
-    let y_unit = claimed.unit.clone();
+    let (y_unit, title) = (claimed.unit.clone(), claimed.title.clone());
     for (raw, row) in raw.iter().zip(&mut claimed.rows) {
         let figures = [&row.used, &row.u, &row.value];
         let units = figures.into_iter().flatten().map(|figure| &figure.unit);
@@ -26,6 +26,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         let words = own.map_or(words.clone(), |unit| words::of_unit(&words, unit));
         let evidence = Evidence {
             words: &words,
+            title: &title,
             columns: &raw.columns_text,
             used: row.used.as_ref(),
             used_head: &raw.used_head,

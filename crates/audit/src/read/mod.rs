@@ -70,7 +70,7 @@ pub use columns::Role;
 pub(crate) use counts::count_before;
 pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use factor::FIXED;
-pub(crate) use family::{RESOLUTION, STEP};
+pub(crate) use family::{AVERAGE, RESOLUTION, STEP};
 pub(crate) use footer::Whole;
 pub(crate) use kind::{is_of_type, shape};
 pub use mapping::Mapping;

@@ -272,3 +272,31 @@ fn french_and_german_rows_are_seen() {
         [true; 3]
     );
 }
+
+/// A correlation that is told in words alone is asked about; one that is denied is not.
+#[test]
+fn a_correlation_in_words_is_asked_about() {
+    let fired = |line: &str| -> bool {
+        let text = format!(
+            "Three 1 kg weights as a 3 kg standard\n\"{line}\"\nComponent,Uncertainty (mg),Distribution,Divisor,u (mg)\n\
+             Weight 1 certificate U k=2,0.50,normal,2,0.25\nWeight 2 certificate U k=2,0.50,normal,2,0.25\n\
+             Repeatability,0.10,normal,1,0.10\nCombined,,,,0.37\nExpanded k=2,,,,0.73\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().any(|finding| finding.rule == 56)
+    };
+    for line in [
+        "All three weights were calibrated against the same reference; their errors are fully correlated (r = 1)",
+        "The weights are correlated since they were calibrated with the same standard; correlation neglected",
+    ] {
+        assert!(fired(line), "{line}");
+    }
+    for line in [
+        "All inputs are uncorrelated",
+        "Correlation: none, the inputs are independent",
+    ] {
+        assert!(!fired(line), "{line}");
+    }
+}

@@ -193,8 +193,9 @@ fn the_constant_of_gravitation_is_as_published() {
 #[test]
 fn the_birge_ratio_is_that_of_the_figures() {
     let birge = |dof: &str| {
-        let rows = (0..20).map(|i| format!("S{i},{},1,{dof}\n", if i % 2 == 0 { 30 } else { -30 }));
-        let table = format!("label,y,u(y),nu(y)\n{}", rows.collect::<String>());
+        let rows =
+            (0..20).map(|i| format!("S{i},{},1,2,{dof}\n", if i % 2 == 0 { 30 } else { -30 }));
+        let table = format!("label,y,u(y),k(y),nu(y)\n{}", rows.collect::<String>());
         let found = found(&table, &Wanted::default());
         found.measurands[0].groups[0].consistency.expect("values")
     };

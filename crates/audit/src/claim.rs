@@ -87,6 +87,8 @@ pub struct Row {
     pub unit: String,
     /// What stands behind one of its figures, in the place of a unit, and is none that is known.
     pub unread_unit: Option<Unplaced>,
+    /// What its column of distributions says and is none that is known.
+    pub unread_distribution: Option<Unplaced>,
     /// Everything that the sheet says of it in words: name, remarks, notes.
     pub words: String,
     /// What is known of it.

@@ -23,11 +23,12 @@ impl Claimed {
         }
         let stale = self.stale.iter_mut().map(|one| &mut one.at);
         let understood = self.understood.iter_mut().map(|one| &mut one.at);
-        let units = self
-            .rows
-            .iter_mut()
-            .filter_map(|row| row.unread_unit.as_mut());
-        let unplaced = self.unplaced.iter_mut().chain(units).map(|one| &mut one.at);
+        let unread = self.rows.iter_mut().flat_map(|row| {
+            let unread = [&mut row.unread_unit, &mut row.unread_distribution];
+            unread.into_iter().flatten()
+        });
+        let unplaced = self.unplaced.iter_mut().chain(unread);
+        let unplaced = unplaced.map(|one| &mut one.at);
         for at in stale.chain(understood).chain(unplaced) {
             *at = to(*at);
         }

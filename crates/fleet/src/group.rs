@@ -47,13 +47,14 @@ pub struct Consistency {
     pub mean: f64,
     /// Its standard uncertainty from the claimed ones, (Σ 1/u²)^(-1/2), larger where these have few degrees of freedom (Meier 1953).
     pub u: f64,
-    /// Σ (x − mean)²/u²; where u has finite degrees of freedom, each deviation counts as a normal one of the same probability.
+    /// Σ (x − mean)²/u².
     pub chi_squared: f64,
     /// Its degrees of freedom, one less than there are rows.
     pub dof: usize,
     /// The Birge ratio √(χ²/ν) (Birge 1932): how many times the scatter is what u says.
     pub birge: f64,
-    /// Probability of a larger χ², where u is right and the items do not differ.
+    /// Probability of a larger χ², where u is right and the items do not differ; where u has finite degrees of freedom, each deviation
+    /// counts for it as a normal one of the same probability.
     pub p_larger: f64,
     /// Degrees of freedom of the claimed u, the median.
     pub dof_of_u: f64,
@@ -178,13 +179,20 @@ impl Consistency {
         let others = Others::of(values, rows, members.median);
         let sums = others.sums();
         let dof = rows.len().checked_sub(1).filter(|dof| *dof > 0)?;
-        let mut chi_squared = 0.0;
-        let score = |row| others.deviation(row, true).map(|one| one.score());
-        in_order(rows, threads, score, |row, score| {
-            if let Some(score) = score {
+        let (mut chi_squared, mut of_scores) = (0.0, 0.0);
+        let of_row = |row| {
+            others
+                .deviation(row, true)
+                .map(|one| (one.difference, one.score()))
+        };
+        in_order(rows, threads, of_row, |row, found| {
+            if let Some((difference, score)) = found {
                 scores(score);
+                // x − x̄ = (1 − h) d
                 let others = 1.0 - sums.share(row);
-                chi_squared += others * score * score;
+                let deviation = others * difference / values.u[row];
+                chi_squared += deviation * deviation;
+                of_scores += others * score * score;
             }
         });
         let dofs = rows.iter().map(|row| values.dof[*row]).collect();
@@ -195,7 +203,7 @@ impl Consistency {
             chi_squared,
             dof,
             birge: (chi_squared / dof as f64).sqrt(),
-            p_larger: chi_squared_sf(chi_squared, dof as f64),
+            p_larger: chi_squared_sf(of_scores, dof as f64),
             dof_of_u: median(dofs),
         })
     }

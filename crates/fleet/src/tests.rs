@@ -188,6 +188,26 @@ fn the_constant_of_gravitation_is_as_published() {
     assert!(consistency.p_larger < 1e-20);
 }
 
+/// How many times the scatter is what u says does not depend on how well u is known: 20 items at ±30 about 0 with u = 1 have
+/// √(20·30²/19) = 30.78.
+#[test]
+fn the_birge_ratio_is_that_of_the_figures() {
+    let birge = |dof: &str| {
+        let rows =
+            (0..20).map(|i| format!("S{i},{},1,2,{dof}\n", if i % 2 == 0 { 30 } else { -30 }));
+        let table = format!("label,y,u(y),k(y),nu(y)\n{}", rows.collect::<String>());
+        let found = found(&table, &Wanted::default());
+        found.measurands[0].groups[0].consistency.expect("values")
+    };
+    let [known, loose] = ["inf", "5"].map(birge);
+    for one in [known, loose] {
+        close(one.chi_squared, 20.0 * 900.0, 1e-12);
+        close(one.birge, (18_000.0_f64 / 19.0).sqrt(), 1e-12);
+        assert_eq!(one.scatter(1), Scatter::More);
+    }
+    assert!(known.p_larger < loose.p_larger);
+}
+
 /// One u for all rows, known to 10 % (ν = 50): rows without number do not prove it 2 % too large. Known exactly, they do.
 #[test]
 fn a_shared_u_is_known_no_better_than_its_degrees_of_freedom() {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::calculate::{Case, estimate};
 use crate::claim::{Claimed, Relative, Row, Shape, Stated};
 use crate::printed::Printed;
-use crate::read::is_of_type;
+use crate::read::{AVERAGE, has, is_of_type};
 use crate::units;
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
@@ -158,11 +158,17 @@ impl<'a> Input<'a> {
     }
 
     fn estimate(&self) -> String {
-        let value = estimate(self.case.claimed, self.row()).filter(|_| self.of_model);
-        format!(
-            "value = {}\n",
-            value.map_or("0".into(), |v| number(v.value))
-        )
+        let own = estimate(self.case.claimed, self.row());
+        match own {
+            Some(value) if self.of_model => format!("value = {}\n", number(value.value)),
+            Some(value) if value.value != 0.0 => {
+                let value = comment(&value.with_unit());
+                let left =
+                    say!("Its estimate {value} is left out: the result is not computed here.");
+                format!("{}value = 0\n", self.remark(left))
+            }
+            _ => "value = 0\n".into(),
+        }
     }
 
     /// Whether the sheet states neither a figure of its uncertainty nor one from which that follows.
@@ -263,7 +269,10 @@ impl<'a> Input<'a> {
                 format!("limits = [{}, {}]\n{dof}", number(low), number(high))
             }
             Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
+                // What is said to be of a mean, and was not divided, is that of the mean already.
+                let is_of_mean = has(&self.row().words.to_lowercase(), AVERAGE);
                 let of = match *m {
+                    1.0 if is_of_mean => say!("Of the mean, as the sheet states it."),
                     1.0 => say!("Of a single reading."),
                     m => say!("Of the mean of {m} readings."),
                 };

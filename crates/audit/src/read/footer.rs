@@ -162,6 +162,9 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if is_expanded_by_factor(&lower) {
         return Some(Whole::Expanded);
     }
+    if is_named_u_c(&lower) {
+        return Some(Whole::Combined);
+    }
     // `Sum u(m_X)`, `Total u`, `Total u_c`; `Total type A` of a block.
     let total = ["sum ", "sum of ", "total ", "total of ", "合计 "]
         .iter()
@@ -189,6 +192,31 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     short.then_some(first.1)
 }
 
+/// What uncertainties are called in the languages of laboratories.
+const UNCERTAINTY: [&str; 9] = [
+    "uncert",
+    "unsicher",
+    "incert",
+    "nejist",
+    "niepewn",
+    "osäkerhet",
+    "onzeker",
+    "неопредел",
+    "不确定",
+];
+
+/// Whether a text in small letters is the name of an uncertainty and behind it u_c: `Standardunsicherheit u_c`.
+fn is_named_u_c(lower: &str) -> bool {
+    let named = lower.trim().rsplit_once(' ');
+    named.is_some_and(|(name, symbol)| {
+        let is_u_c = matches!(
+            symbol.trim_matches(['(', ')', ',']),
+            "u_c" | "uc" | "u_c(y)"
+        );
+        is_u_c && !name.contains('=') && UNCERTAINTY.iter().any(|word| name.contains(word))
+    })
+}
+
 /// Whether a text in small letters is nothing but `uncertainty` with a factor, `Messunsicherheit (k=2)`, which makes it expanded.
 fn is_expanded_by_factor(lower: &str) -> bool {
     const NAMES: [&str; 10] = [
@@ -212,25 +240,14 @@ fn is_expanded_by_factor(lower: &str) -> bool {
 /// Whether what stands below u_c is called as an expanded uncertainty may be: it names an uncertainty, U, its factor, or a multiple of
 /// u_c.
 pub fn may_be_expanded(text: &str) -> bool {
-    const UNCERTAINTY: [&str; 10] = [
-        "uncert",
-        "unsicher",
-        "incert",
-        "nejist",
-        "niepewn",
-        "osäkerhet",
-        "onzeker",
-        "неопредел",
-        "不确定",
-        "expand",
-    ];
     const LIMITS: [&str; 7] = ["cmc", "limit", "toleran", "mpe", "target", "允", "限"];
     let lower = text.to_lowercase();
     let is_named = |keys: &[&str]| keys.iter().any(|key| lower.contains(key));
     let is_multiple = || leading(text).is_some_and(|(_, behind)| names_u(behind));
     let by_factor = || without_condition(text).len() < text.len();
     let by_symbol = || super::words::has_symbol(text, "U");
-    !is_named(&LIMITS) && (is_named(&UNCERTAINTY) || is_multiple() || by_factor() || by_symbol())
+    let is_uncertainty = is_named(&UNCERTAINTY) || is_named(&["expand"]);
+    !is_named(&LIMITS) && (is_uncertainty || is_multiple() || by_factor() || by_symbol())
 }
 
 /// The coverage factor that the label of U names in words: `Expanded uncertainty, coverage factor 3`.
@@ -546,6 +563,8 @@ mod tests {
         for (text, whole) in [
             ("Combined standard uncertainty u_c", Whole::Combined),
             ("合成标准不确定度 uc", Whole::Combined),
+            ("Standardunsicherheit u_c", Whole::Combined),
+            ("Incertitude-type uc", Whole::Combined),
             ("有效自由度 νeff", Whole::Freedom),
             ("U", Whole::Expanded),
             ("扩展不确定度 U (k=2)", Whole::Expanded),

@@ -62,7 +62,11 @@ pub(super) fn place_lines(all: &[&Line], results: &[&str], claimed: &mut Claimed
         claimed.words.push('\n');
     }
     let title = claimed.title.clone();
-    for line in all.iter().filter(|line| line.text != title) {
+    let (first, others): (Vec<&Line>, Vec<&Line>) = all.iter().partition(|line| line.text == title);
+    for line in first {
+        rule_in_title(line, claimed);
+    }
+    for line in others {
         let stated = results.iter().find(|name| is_statement(&line.text, name));
         match stated.filter(|name| **name != claimed.measurand) {
             Some(_) => claimed.unplaced.push(Unplaced {
@@ -80,6 +84,19 @@ pub(super) fn place_lines(all: &[&Line], results: &[&str], claimed: &mut Claimed
         .find_map(|line| notes::mean_of(&line.text, claimed));
     if claimed.unit.is_empty() {
         claimed.unit = result_unit::unit_of_result(claimed);
+    }
+}
+
+/// Takes the rule for rounding that stands in the first line of a sheet, which is its title otherwise.
+fn rule_in_title(line: &Line, claimed: &mut Claimed) {
+    let before = claimed.rounding;
+    notes::rounding(&line.text.to_lowercase(), claimed);
+    if claimed.rounding != before {
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "rule for rounding",
+        });
     }
 }
 

@@ -70,7 +70,7 @@ pub use columns::Role;
 pub(crate) use counts::count_before;
 pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
 pub(crate) use factor::FIXED;
-pub(crate) use family::{RESOLUTION, STEP};
+pub(crate) use family::{AVERAGE, RESOLUTION, STEP};
 pub(crate) use footer::Whole;
 pub(crate) use kind::{is_of_type, shape};
 pub use mapping::Mapping;
@@ -78,7 +78,7 @@ pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
 pub use unread::expanded as unread_expanded;
-pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, symbol_at};
+pub(crate) use words::{figure_after, figures_with_units, has, has_symbol, lowered, symbol_at};
 
 use std::ops::Range;
 
@@ -345,7 +345,7 @@ fn budget(
         ..Claimed::default()
     };
     let mut raw = found.raw.clone();
-    claimed.unplaced.extend(unread_units(&raw));
+    claimed.unplaced.extend(unread_cells(&raw));
     let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
         let of_row = stating.clone().flat_map(|input| &input.raw);
@@ -449,15 +449,19 @@ fn budget(
     claimed
 }
 
-/// What stands in the place of units and is none, each once.
-fn unread_units(raw: &[table::Raw]) -> Vec<Unplaced> {
-    let mut units: Vec<Unplaced> = Vec::new();
-    for unit in raw.iter().filter_map(|raw| raw.row.unread_unit.as_ref()) {
-        if units.iter().all(|known| known.text != unit.text) {
-            units.push(unit.clone());
+/// What stands in the place of units and distributions and is none, each once.
+fn unread_cells(raw: &[table::Raw]) -> Vec<Unplaced> {
+    let mut unread: Vec<Unplaced> = Vec::new();
+    let cells = |raw: &table::Raw| {
+        let row = &raw.row;
+        [row.unread_unit.clone(), row.unread_distribution.clone()]
+    };
+    for cell in raw.iter().flat_map(cells).flatten() {
+        if unread.iter().all(|known| known.text != cell.text) {
+            unread.push(cell);
         }
     }
-    units
+    unread
 }
 
 /// Whether u_c, or U by its k, is the root of the sum of squares of what the rows state: then nothing is correlated here.

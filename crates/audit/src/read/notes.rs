@@ -140,12 +140,15 @@ pub fn correlation(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
         "无相关",
     ];
     // `r(a, b) = 0.5; all others are independent`: each clause is about others.
-    let clauses: Vec<&str> = if text.contains("r(") || text.contains("ρ(") {
-        text.split(';').collect()
+    let clauses: Vec<String> = if text.contains("r(") || text.contains("ρ(") {
+        outside_brackets(text)
+            .into_iter()
+            .flat_map(each_coefficient)
+            .collect()
     } else {
-        text.split([';', ',', '。']).collect()
+        with_lists(text.split([';', ',', '。']), claimed)
     };
-    let said: Vec<&str> = clauses
+    let said: Vec<String> = clauses
         .into_iter()
         .filter(|clause| !has(&clause.to_lowercase(), &none))
         .collect();
@@ -160,6 +163,66 @@ pub fn correlation(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
     // What is parted by commas may belong together: `a, b: r = 0.5`.
     let whole = said.join(",");
     self::pairs(&whole, claimed).or_else(|| has(&lower, &none).then(Vec::new))
+}
+
+/// The parts of a text between its semicolons; those in brackets part the cells that a comma has made: `r(a ; b)`.
+fn outside_brackets(text: &str) -> Vec<&str> {
+    let (mut parts, mut from, mut depth) = (Vec::new(), 0, 0_usize);
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ';' if depth == 0 => {
+                parts.push(&text[from..at]);
+                from = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[from..]);
+    parts
+}
+
+/// A clause for each `r(a, b)` of a text, with the figure that stands behind it, or behind others that follow: `r(a, b) = r(a, c)
+/// = 1`.
+fn each_coefficient(text: &str) -> Vec<String> {
+    let is_name = |at: usize| text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+    let leads = ["r(", "ρ("].into_iter();
+    let starts = leads.flat_map(|lead| text.match_indices(lead).map(|(at, _)| at));
+    let mut starts: Vec<usize> = starts.filter(|at| !is_name(*at)).collect();
+    starts.sort_unstable();
+    starts.drain(..starts.len().min(1));
+    let ends = starts.iter().copied().chain([text.len()]);
+    let begins = [0].into_iter().chain(starts.iter().copied());
+    let parts: Vec<&str> = begins.zip(ends).map(|(from, to)| &text[from..to]).collect();
+    let mut clauses: Vec<String> = Vec::new();
+    let mut figure = "";
+    for part in parts.into_iter().rev() {
+        let (bracket, behind) = part.split_once(')').unwrap_or((part, ""));
+        if behind.contains(|c: char| c.is_ascii_digit()) {
+            figure = behind;
+        }
+        clauses.push(format!("{bracket}){figure}"));
+    }
+    clauses.reverse();
+    clauses
+}
+
+/// The clauses of a text, of which those that are no more than the symbol of a row begin a list: `m1, m2 and m3`.
+fn with_lists<'t>(parts: impl Iterator<Item = &'t str>, claimed: &Claimed) -> Vec<String> {
+    let mut clauses: Vec<String> = Vec::new();
+    let mut list = String::new();
+    for part in parts {
+        let mut rows = claimed.rows.iter();
+        let is_symbol = rows.any(|row| !row.symbol.is_empty() && row.symbol == part.trim());
+        list.push_str(part);
+        match is_symbol {
+            true => list.push(','),
+            false => clauses.push(std::mem::take(&mut list)),
+        }
+    }
+    clauses.push(list);
+    clauses
 }
 
 /// The pairs of rows that a clause names, with its coefficient.

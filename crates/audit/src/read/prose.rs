@@ -34,7 +34,8 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
     }
     let (text, u) = match (result_of(text), concluded(text)) {
         ((_, None), Some((words, u))) if !begins_with_symbol(words) => {
-            return of_conclusion(words, u.at(at), at);
+            let calculation = text.get(words.len()..).unwrap_or_default();
+            return of_conclusion(words, u.at(at), at).map(|row| with_product(row, calculation));
         }
         ((_, None), Some((words, u))) => (words, Some(u)),
         (of_arrow, _) => of_arrow,
@@ -142,6 +143,11 @@ fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
     let of_u = ["引入的标准不确定度", "的标准不确定度"];
     let end = of_u.iter().find_map(|words| name.find(words));
     let name = name[..end.unwrap_or(name.len())].trim();
+    // `The comparator has an error limit of ±0.030 µm: u2 = …` is about the comparator.
+    let name = match is_name(name) {
+        true => name,
+        false => subject(words)?,
+    };
     let row = Row {
         name: name.into(),
         at,
@@ -151,6 +157,30 @@ fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
         ..Row::default()
     };
     is_name(name).then_some(row)
+}
+
+/// The row whose u is the product with its coefficient, as its calculation says, `u3 = 0.05/√3 × 1.15 = 0.0332`: that is the
+/// contribution.
+fn with_product(row: Row, calculation: &str) -> Row {
+    let Some(c) = &row.c else {
+        return row;
+    };
+    let is_c = |text: &str| leading(text.trim()).is_some_and(|(figure, _)| figure.value == c.value);
+    let is_product = ['×', '·', '*'].iter().any(|mark| {
+        let mut factors = calculation.split(*mark);
+        let first = factors.next().unwrap_or_default();
+        // The first factor stands behind the name.
+        let first = first.rsplit('=').next().unwrap_or_default();
+        calculation.contains(*mark) && (is_c(first) || factors.any(is_c))
+    });
+    match is_product {
+        true => Row {
+            contribution: row.u.clone(),
+            u: None,
+            ..row
+        },
+        false => row,
+    }
 }
 
 /// A sentence that says what is known of a quantity, as a row: it has a figure, and what the figure is.

@@ -210,10 +210,13 @@ pub(super) fn not_a_matrix(seen: &Seen<'_>) -> Vec<Hit> {
     when(!are_possible(pairs), || "r".into())
 }
 
-/// Rows that name the same certificate, and are not correlated.
-/// Rows of which one says that it rests on the same standard as another, in a sheet that states no correlation.
+/// Rows that name the same certificate, and are not correlated; rows of which one says that it rests on the same standard as another,
+/// or a line that says of its inputs that they are correlated, in a sheet that states no correlation that is read.
 pub(super) fn common_reference(seen: &Seen<'_>) -> Vec<Hit> {
     let mut hits = common_certificate(seen);
+    if hits.is_empty() && seen.claimed.correlations.is_empty() {
+        hits.extend(told_correlation(seen));
+    }
     if hits.is_empty() && seen.claimed.correlations.is_empty() {
         let rows = seen.claimed.rows.iter().enumerate();
         hits.extend(rows.filter_map(|(at, row)| {
@@ -223,6 +226,27 @@ pub(super) fn common_reference(seen: &Seen<'_>) -> Vec<Hit> {
         }));
     }
     hits
+}
+
+/// A line that speaks of correlation, of which rows it is not understood, and does not deny it.
+fn told_correlation(seen: &Seen<'_>) -> Option<Hit> {
+    const DENIED: [&str; 7] = [
+        "uncorrelated",
+        "not correlated",
+        "no correlation",
+        "independent",
+        "不相关",
+        "无相关",
+        "独立",
+    ];
+    let is_told = |text: &&str| {
+        let lower = text.to_lowercase();
+        let is_denied = DENIED.iter().any(|word| lower.contains(word));
+        !is_denied && ["correlat", "相关"].iter().any(|word| lower.contains(word))
+    };
+    let mut lines = seen.claimed.unplaced.iter().map(|line| line.text.as_str());
+    let line = lines.find(is_told)?;
+    Some(Hit::of(None, line.to_owned()))
 }
 
 /// What says that two rows have a cause in common.

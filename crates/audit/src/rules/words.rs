@@ -2,6 +2,8 @@
 
 use gumption_core::calendar::Day;
 
+use crate::read::{has, lowered};
+
 use super::{Hit, Seen};
 
 /// Whether the sheet speaks of something, in its rows or beside its tables.
@@ -59,6 +61,11 @@ pub(super) fn no_resolution(seen: &Seen<'_>) -> Vec<Hit> {
         "分度",
         "量化",
         "估读",
+        "auflösung",
+        "ablesung",
+        "résolution",
+        "échelon",
+        "quantification",
     ];
     missing(is_calibration(seen) && !step && !rows_speak(seen, &words))
 }
@@ -73,6 +80,12 @@ pub(super) fn no_repeatability(seen: &Seen<'_>) -> Vec<Hit> {
         "重复性",
         "标准偏差",
         "a类",
+        "wiederhol",
+        "streuung",
+        "standardabweichung",
+        "répétabilité",
+        "fidélité",
+        "écart-type",
     ];
     missing(is_calibration(seen) && !type_a && !rows_speak(seen, &words))
 }
@@ -88,6 +101,9 @@ pub(super) fn no_drift(seen: &Seen<'_>) -> Vec<Hit> {
         "稳定性",
         "年变化",
         "老化",
+        "alterung",
+        "dérive",
+        "vieillissement",
     ];
     missing(is_calibration(seen) && !rows_speak(seen, &words))
 }
@@ -115,6 +131,10 @@ pub(super) fn no_temperature(seen: &Seen<'_>) -> Vec<Hit> {
         "温度",
         "膨胀",
         "温差",
+        "temperatur",
+        "ausdehnung",
+        "température",
+        "dilatation",
     ];
     let title = seen.claimed.title.to_lowercase();
     let thermal = depends.iter().any(|word| title.contains(word));
@@ -260,37 +280,110 @@ pub(super) fn comparison(seen: &Seen<'_>) -> Vec<Hit> {
         .collect()
 }
 
+/// A certificate that had expired on the day of measurement, or of the budget where no other is named.
 pub(super) fn expired(seen: &Seen<'_>) -> Vec<Hit> {
-    let measured = dates(
-        &seen.claimed.words,
-        &[
-            "measured on",
-            "date of calibration",
-            "calibrated on",
-            "校准日期",
-            "测量日期",
-        ],
-    );
-    let valid = dates(
-        &seen.claimed.words,
-        &["valid until", "expires", "due", "有效期至", "有效期"],
-    );
-    let Some(measured) = measured.into_iter().max() else {
+    let lines = seen.claimed.words.lines();
+    let all: Vec<(Dated, Day)> = lines.flat_map(dated).collect();
+    let of = |kind: Dated| all.iter().filter(move |one| one.0 == kind).map(|one| one.1);
+    let Some(measured) = of(Dated::Measured).max().or_else(|| of(Dated::Made).max()) else {
         return Vec::new();
     };
-    let old = valid.into_iter().filter(|date| *date < measured);
+    let old = of(Dated::Valid).filter(|date| *date < measured);
     old.map(|date| Hit::of(None, format!("{date} < {measured}")))
         .collect()
 }
 
-/// Dates on lines that hold one of the words.
-fn dates(text: &str, words: &[&str]) -> Vec<Day> {
-    let is_about = |line: &&str| {
-        let lower = line.to_lowercase();
-        words.iter().any(|word| lower.contains(word))
+/// What a date is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Dated {
+    /// The measurement.
+    Measured,
+    /// The budget.
+    Made,
+    /// The end of what a certificate is good for.
+    Valid,
+    /// Another one: when a standard was calibrated.
+    Other,
+}
+
+/// What stands in front of dates.
+const DATED: &[(Dated, &[&str])] = &[
+    (
+        Dated::Measured,
+        &[
+            "measured on",
+            "date of measurement",
+            "measurement date",
+            "date of calibration",
+            "calibration date",
+            "校准日期",
+            "测量日期",
+        ],
+    ),
+    (
+        Dated::Valid,
+        &[
+            "valid until",
+            "valid to",
+            "expires",
+            "expired",
+            "expiry",
+            "due",
+            "有效期至",
+            "有效期",
+        ],
+    ),
+    (
+        Dated::Made,
+        &[
+            "date of this budget",
+            "date of budget",
+            "date of the budget",
+            "budget date",
+            "date:",
+        ],
+    ),
+    (Dated::Other, &["calibrated on", "certificate of", "dated"]),
+];
+
+/// The dates of a line, each as what was named last in front of it.
+fn dated(line: &str) -> Vec<(Dated, Day)> {
+    let lower = lowered(line);
+    let is_end = |c: Option<char>| !c.is_some_and(|c| c.is_ascii_alphabetic());
+    let is_word = |at: usize, word: &str| {
+        let behind = &lower[at + word.len()..];
+        // `due to the temperature`
+        let is_cause = behind.trim_start().starts_with("to ");
+        let in_front = &lower[..at];
+        // `due date: ` is named already.
+        let parted = match word.ends_with(':') {
+            true => {
+                in_front.trim_end().is_empty() || in_front.trim_end().ends_with([';', '.', ','])
+            }
+            false => is_end(in_front.chars().next_back()),
+        };
+        parted && (word.ends_with(':') || is_end(behind.chars().next())) && !is_cause
     };
-    let lines = text.lines().filter(is_about);
-    lines.flat_map(super::records::dates).collect()
+    let mut named: Vec<(usize, Dated)> = Vec::new();
+    for (kind, words) in DATED {
+        for word in *words {
+            let found = lower.match_indices(word).map(|(at, _)| at);
+            let found = found.filter(|at| is_word(*at, word));
+            named.extend(found.map(|at| (at, *kind)));
+        }
+    }
+    named.sort_by_key(|(at, _)| *at);
+    let ends = |i: usize| named.get(i + 1).map_or(line.len(), |next| next.0);
+    // A standard was calibrated on a day, and so was the device.
+    let is_of_standard = has(&lower, &["standard", "reference", "标准"])
+        || named.iter().any(|one| one.1 == Dated::Valid);
+    let date = |(i, (at, kind)): (usize, &(usize, Dated))| {
+        let text = &lower[*at..ends(i)];
+        let is_measured = text.starts_with("calibrated on") && !is_of_standard;
+        let kind = if is_measured { Dated::Measured } else { *kind };
+        super::records::dates(text).first().map(|day| (kind, *day))
+    };
+    named.iter().enumerate().filter_map(date).collect()
 }
 
 /// `U = ±0.2 mm`: a lone uncertainty has no sign (JJF 1059.1).

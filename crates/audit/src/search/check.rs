@@ -3,7 +3,7 @@
 use std::iter;
 
 use crate::calculate::{Calculation, Case, Combined, Factor, Figures, Freedom, Printout, t};
-use crate::claim::{RoundingStated, Row, Stated};
+use crate::claim::{RoundingStated, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change};
 
@@ -132,8 +132,10 @@ struct Held<'a> {
     of_root: Option<Figures>,
     /// u_c as it is claimed.
     u_c: Option<Printed>,
-    /// By how much, relatively, figures may differ because the coefficients are known as they are shown.
+    /// By how much, relatively, u_c may differ because the coefficients are known as they are shown.
     coarse: f64,
+    /// By how much, relatively, the contribution of a row that has few degrees of freedom may, at most.
+    coarse_of_few: f64,
     /// By how much u_c may differ because the sheet computed with more digits than it states.
     open: f64,
 }
@@ -165,7 +167,8 @@ impl<'a> Held<'a> {
             of_coefficients: coefficients.map(|own| own.figures(&[], cmc)),
             of_root: is_after.then(|| rooted().figures(&[], cmc)),
             u_c: u_c.map(|figure| unexchanged(figure, calculation, Printout::Combined)),
-            coarse: coarseness(case),
+            coarse: coarseness(case, calculation),
+            coarse_of_few: coarseness_of_few(case, calculation),
             open: left_open(case, calculation, exact.u_c),
         }
     }
@@ -203,7 +206,8 @@ impl<'a> Held<'a> {
     }
 
     fn meets_freedom(&self, meets_u_c: bool) -> bool {
-        let coarse = self.coarse.max(self.open / self.exact.u_c);
+        let of_coefficients = self.coarse + self.coarse_of_few;
+        let coarse = of_coefficients.max(self.open / self.exact.u_c);
         // Where it was found from u_c as it is printed, that enters with its fourth power.
         let of_printed_u = |f: &Figures| {
             let ratio = self.u_c.as_ref().filter(|_| meets_u_c);
@@ -297,13 +301,52 @@ impl<'a> Held<'a> {
     }
 }
 
-/// Coefficients that no model gives are known as they are shown.
-fn coarseness(case: &Case<'_>) -> f64 {
-    let shown = |row: &Row| row.c.as_ref().map_or(0.0, Printed::coarseness);
-    match case.derivatives {
-        Some(_) => 0.0,
-        None => case.claimed.rows.iter().map(shown).fold(0.0, f64::max),
+/// What the coefficients leave open of each row, as a ratio: those that no model gives are known as they are shown.
+fn shown<'a>(case: &'a Case<'_>) -> impl Iterator<Item = f64> + 'a {
+    let rows = case.claimed.rows.iter();
+    rows.map(|row| match (&case.derivatives, &row.c) {
+        (None, Some(c)) => c.coarseness(),
+        _ => 0.0,
+    })
+}
+
+/// What the coefficients leave open of u_c, as a ratio: of each as much as its contribution is a part of it. With correlations
+/// the parts may be larger than the whole, and the most that is open of any coefficient stands for all. So it does for what is
+/// right: a claim is not doubted for a last digit, but a slip is only named that gives the figures.
+fn coarseness(case: &Case<'_>, calculation: &Calculation) -> f64 {
+    let right = &case.right;
+    let is_right = calculation.lines == right.lines && calculation.combined == right.combined;
+    if is_right || !calculation.correlations.is_empty() {
+        return shown(case).fold(0.0, f64::max);
     }
+    let power = match calculation.combined {
+        Combined::Linear => 1.0,
+        _ => 2.0,
+    };
+    let (mut whole, mut open) = (0.0, 0.0);
+    let lines = calculation.lines.iter().zip(shown(case));
+    for (line, shown) in lines.filter(|(line, _)| line.counted) {
+        let part = libm::pow(line.contribution().abs(), power);
+        whole += part;
+        open += shown * part;
+    }
+    // A sum of squares without its root moves twice as much.
+    let times = match calculation.combined {
+        Combined::Squares => 2.0,
+        _ => 1.0,
+    };
+    if whole > 0.0 {
+        times * open / whole
+    } else {
+        0.0
+    }
+}
+
+/// The most that a coefficient leaves open of a row with degrees of freedom that count in ν_eff.
+fn coarseness_of_few(case: &Case<'_>, calculation: &Calculation) -> f64 {
+    let all = calculation.lines.iter().zip(shown(case));
+    let few = all.filter(|(line, _)| line.counted && line.dof.is_finite());
+    few.map(|(_, open)| open).fold(0.0, f64::max)
 }
 
 /// The calculation with the coefficients that the laboratory states, where it has used derivatives that it rounded: rule 6
@@ -345,8 +388,8 @@ pub fn reported(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f6
     }
 }
 
-/// Whether U, or u_c where no U is claimed, would be printed as it is claimed: rounded as the laboratory rounded what it
-/// `made`, to nearest or up, whichever of them its own figure shows. u_c is `open` by so much.
+/// Whether U, or u_c where no U is claimed, would be printed as it is claimed: rounded by the rule of the sheet, else as the
+/// laboratory rounded what it `made`, to nearest or up, whichever of them its own figure shows. u_c is `open` by so much.
 pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -> bool {
     let footer = &case.claimed.footer;
     let Some(expanded) = &footer.expanded else {
@@ -361,6 +404,11 @@ pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -
         let above = expanded.value - x;
         above >= -open - tolerance && above < 2.0 * half + open + tolerance
     };
+    match case.claimed.rounding {
+        RoundingStated::Nearest => return nearest(right.expanded, open),
+        RoundingStated::Up => return up(right.expanded, open),
+        RoundingStated::Unstated => {}
+    }
     match (nearest(made.expanded, 0.0), up(made.expanded, 0.0)) {
         (true, false) => nearest(right.expanded, open),
         (false, true) => up(right.expanded, open),

@@ -14,13 +14,13 @@ pub struct Explanation {
     pub calculation: Calculation,
 }
 
-/// The most usual first; of several variants of one set the first.
+/// The most usual first, of equally usual ones those that leave the rows and u_c as they are printed; of several variants of one
+/// set the first.
 pub(super) fn rank(case: &Case<'_>, explanations: &mut Vec<Explanation>) {
     explanations.sort_by_key(|e| {
-        e.acts
-            .iter()
-            .map(|act| row::surprise(case, act))
-            .sum::<u32>()
+        let surprise = e.acts.iter().map(|act| row::surprise(case, act));
+        let denies_rows = !e.acts.iter().all(Act::acts_behind_sum);
+        (surprise.sum::<u32>(), denies_rows)
     });
     let mut seen: Vec<Vec<String>> = Vec::new();
     explanations.retain(|e| {

@@ -446,3 +446,139 @@ fn nothing_is_a_part_of_an_infinite_u_c() {
         assert!(![75, 76].contains(&rule), "{rule}: {numbers}");
     }
 }
+
+/// The forms of M3003 abbreviate the distributions: √(0.25² + 0.1155² + 0.0577² + 0.09²) = 0.2955 ″, where the half-width of
+/// the drift as it stands gives 0.3375 ″.
+#[test]
+fn letters_stand_for_distributions() {
+    let sheet = |[normal, flat]: [&str; 2], drift: &str, whole: &str| {
+        format!(
+            "Angle calibrator\nSource,Limits ±,Unit,Distr.,Sensitivity,Contribution u_i(y) / ″\n\
+             \"Autocollimator, certificate (k=2)\",0.50,″,{normal},1,0.25\nPolygon drift,0.20,″,{flat},1,{drift}\n\
+             Resolution,0.10,″,{flat},1,0.058\n\"Repeatability, standard error\",0.09,″,{normal},1,0.09\n{whole}\n"
+        )
+    };
+    let sound =
+        "Combined standard uncertainty u_c,,,,,0.295\nExpanded uncertainty U (k = 2),,,,,0.59";
+    let undivided =
+        "Combined standard uncertainty u_c,,,,,0.338\nExpanded uncertainty U (k = 2),,,,,0.68";
+    for letters in [["N", "R"], ["n", "U"], ["gauss", "square"], ["N.", "R."]] {
+        is_sound("sheet.csv", &sheet(letters, "0.115", sound));
+    }
+    let slip = first("sheet.csv", &sheet(["N", "R"], "0.200", undivided));
+    assert_eq!(slip, "root3-missing@Polygon drift");
+    // What is no distribution is told.
+    let claims = understood("sheet.csv", &sheet(["N", "Q"], "0.115", sound));
+    let unread: Vec<&str> = claims[0]
+        .unplaced
+        .iter()
+        .map(|cell| cell.text.as_str())
+        .collect();
+    assert_eq!(unread, ["Q"]);
+}
+
+/// The form of the DKD writes u in g and contributions in mg: √(22.5² + 8.66² + 14.4² + 5.8²) mg = 28.7 mg = 0.0287 g, which is
+/// 0.0514 g where the amounts are added.
+#[test]
+fn cells_of_a_column_have_their_own_units() {
+    let sheet = |[m_n, drift, reading, air]: [&str; 4], u_c: &str, expanded: &str| {
+        format!(
+            "Messunsicherheitsbudget Gewichtstück 10 kg\nModellgleichung: m_X = m_N + δm_D + Δm + δm_B\n\n\
+             Größe Xi;Schätzwert xi;Standardmessunsicherheit u(xi);Verteilung;Freiheitsgrad νi;Sensitivitätskoeffizient ci;Unsicherheitsbeitrag ui(y)\n\
+             m_N;10000,005 g;{m_n};Normal;50;1;22,5 mg\nδm_D;0 g;{drift};Rechteck;∞;1;8,66 mg\n\
+             Δm;0,020 g;{reading};Normal;11;1;14,4 mg\nδm_B;0 g;{air};Rechteck;∞;1;5,8 mg\n\
+             m_X;10000,025 g;{u_c};;74;;\n\nErgebnis: m_X = 10000,025 g ± {expanded} (k = 2)\n"
+        )
+    };
+    let in_g = ["0,0225 g", "0,00866 g", "0,0144 g", "0,0058 g"];
+    let in_mg = ["22,5 mg", "8,66 mg", "14,4 mg", "5,8 mg"];
+    for u in [in_g, in_mg] {
+        is_sound("sheet.csv", &sheet(u, "0,0287 g", "0,057 g"));
+    }
+    let added = sheet(in_g, "0,0514 g", "0,10 g").replace(";74;", ";;");
+    assert!(first("sheet.csv", &added).starts_with("linear-sum"));
+}
+
+/// `Contribution (%)` holds shares in the variance where they total 100: 0.050² is 13.6 % of 0.1358² mg².
+#[test]
+fn shares_in_percent_total_a_hundred() {
+    let sheet = |title: &str, total: &str, u_c: &str, expanded: &str| {
+        format!(
+            "{title}\nComponent;Value;Distribution;Divisor;Standard uncertainty (mg);Contribution (%)\n\
+             Standard (certificate, U k=2);0,10 mg;normal;2;0,050;13,6\nDrift of standard;± 0,06 mg;uniform;√3;0,0346;6,5\n\
+             Resolution (d = 0,1 mg);± 0,05 mg;uniform;√3;0,0289;4,5\nEccentricity;± 0,15 mg;uniform;√3;0,0866;40,7\n\
+             Repeatability, standard deviation;0,08 mg;normal;1;0,08;34,7\n{total}\
+             Combined standard uncertainty;;;;{u_c};\nExpanded uncertainty (k = 2);;;;{expanded};\n"
+        )
+    };
+    for title in ["Uncertainty budget", "Uncertainty budget - balance 200 g"] {
+        for total in ["", ";;;;;100\n", ";;;;;\n"] {
+            is_sound("sheet.csv", &sheet(title, total, "0,136", "0,27"));
+        }
+        // The amounts added: 0.050 + 0.0346 + 0.0289 + 0.0866 + 0.08.
+        let slip = first("sheet.csv", &sheet(title, "", "0,280", "0,56"));
+        assert_eq!(slip, "linear-sum");
+    }
+}
+
+/// The form of UKAS and NABL: `Std. unc. (µm)` is value / divisor · c, 1 °C/1.732 · 1.15 µm/°C = 0.664 µm. √(0.06² + 0.058² +
+/// 0.664² + 2.887² + 1.6²) = 3.368 µm; with c left out 0.577 stands for 0.664, and it is 3.352 µm.
+#[test]
+fn u_may_have_its_coefficient_in_it() {
+    let sheet = |head: &str, made: &str, u_c: &str, nu: &str| {
+        format!(
+            "Caliper 150 mm\nContributor,Input uncertainty,Unit,Prob. distribution,Divisor,Sens. coeff.,{head},ν\n\
+             \"Gauge block calibration (U, k=2)\",0.12,µm,Normal,2,1,0.06,∞\nGauge block drift,0.10,µm,Rectangular,1.732,1,0.058,∞\n\
+             Temperature difference ±1 °C,1,°C,Rectangular,1.732,1.15,{made},∞\n\
+             Resolution (0.01 mm → ±5 µm),5,µm,Rectangular,1.732,1,2.887,∞\n\
+             \"Repeatability, std. dev. of mean, n=10\",1.6,µm,Normal,1,1,1.6,9\n\
+             ,,,,,u_c,{u_c},\n,,,,,νeff,{nu},\n,,,,,k,2,\n,,,,,U (µm),6.7,\n"
+        )
+    };
+    for head in ["Std. unc. (µm)", "ui(y) (µm)"] {
+        is_sound("sheet.csv", &sheet(head, "0.664", "3.368", "176"));
+        // 3.368 without the first row is 3.367, and no explanation of 3.352.
+        let (verdict, slips) = answer("sheet.csv", &sheet(head, "0.577", "3.352", "173"));
+        assert_eq!(verdict, Verdict::WithoutEffect);
+        assert_eq!(slips[0], "c-one@Temperature difference ±1 °C");
+        assert!(!slips.iter().any(|slip| slip.starts_with("row-dropped")));
+    }
+}
+
+/// Three weights of 0.25 mg each that are fully correlated, and 0.10 mg: √(0.75² + 0.1²) = 0.757 mg, where without correlations
+/// it is 0.444 mg.
+#[test]
+fn a_line_may_state_several_correlations() {
+    let sheet = |line: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Three 1 kg weights as a 3 kg standard\n\"Model: m = m1 + m2 + m3 + d\"\n\"{line}\"\n\
+             Symbol,Component,Uncertainty (mg),Distribution,Divisor,u (mg),c\nm1,Weight 1 certificate U k=2,0.50,normal,2,0.25,1\n\
+             m2,Weight 2 certificate U k=2,0.50,normal,2,0.25,1\nm3,Weight 3 certificate U k=2,0.50,normal,2,0.25,1\n\
+             d,Repeatability,0.10,normal,1,0.10,1\n,Combined,,,,{u_c},\n,Expanded k=2,,,,{expanded},\n"
+        )
+    };
+    for line in [
+        "r(m1,m2) = r(m1,m3) = r(m2,m3) = 1",
+        "r(m1,m2)=1, r(m1,m3)=1, r(m2,m3)=1",
+        "r(m1,m2) = 1; r(m1,m3) = 1; r(m2,m3) = 1",
+        "r(m1 ; m2) = r(m1 ; m3) = r(m2 ; m3) = 1",
+        "m1, m2 and m3 are fully correlated (r = 1)",
+    ] {
+        is_sound("sheet.csv", &sheet(line, "0.76", "1.5"));
+        let slip = first("sheet.csv", &sheet(line, "0.44", "0.89"));
+        assert_eq!(slip, "corr-ignored", "{line}");
+    }
+}
+
+/// A triangle for the capacity of a flask (QUAM:2012, A1), which the title names: √(0.0408² + 0.0485² + 0.02²) = 0.0665 mL.
+#[test]
+fn a_title_may_name_the_glassware() {
+    let sheet = |title: &str| {
+        format!(
+            "{title}\nComponent,Value ±,Distribution,Divisor,c,u / mL\nCalibration ±0.1 mL,0.1 mL,triangular,√6,1,0.0408\n\
+             Temperature ±4 °C,4 °C,rectangular,√3,0.021 mL/°C,0.0485\nRepeatability,0.02 mL,normal,1,1,0.02\nu_c,,,,,0.0665\n\"U, k=2\",,,,,0.13\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("Volumetric flask 100 mL"));
+    assert!(first("sheet.csv", &sheet("Dispenser 100 mL")).starts_with("triangle@"));
+}

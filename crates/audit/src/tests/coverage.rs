@@ -135,3 +135,27 @@ fn a_result_above_the_sum_is_no_source() {
         );
     }
 }
+
+/// An import says of which readings s is, and which estimate it leaves behind where it has no model.
+#[test]
+fn an_import_says_what_it_takes_and_leaves() {
+    let sheet = |words: &str| {
+        format!(
+            "Größe;Bezeichnung;Schätzwert;Halbweite / Unsicherheit;Verteilung;Teiler;Empfindlichkeitskoeffizient;Beitrag;Freiheitsgrade\n\
+             ;;bar;bar;;;;bar;\np_N;Normal, Kalibrierschein (U, k=2);5,000;0,060;normal;2;1;0,030;∞\n\
+             δp_W;{words};0;0,024;normal;1;1;0,024;9\n\n;Kombinierte Standardunsicherheit;;;;;;0,038;\n;Erweiterte Unsicherheit U (k = 2);;;;;;0,077;\n"
+        )
+    };
+    let file = imported(&sheet("Wiederholbarkeit (Mittelwert aus 10 Messungen)"));
+    let of_mean = "# Of the mean, as the sheet states it.\nu = 0.024\n";
+    let left =
+        "# Its estimate 5,000 bar is left out: the result is not computed here.\nvalue = 0\n";
+    for text in [of_mean, left] {
+        assert!(file.contains(text), "{file}");
+    }
+    let single = imported(&sheet("Wiederholbarkeit"));
+    assert!(
+        single.contains("# Of a single reading.\nu = 0.024\n"),
+        "{single}"
+    );
+}

@@ -1,6 +1,6 @@
 //! Generated sheets in coarse figures: what is called sound is printed as it is claimed.
 
-use super::{answer, is_printed_as_claimed};
+use super::{answer, first, is_printed_as_claimed, is_sound};
 use crate::read::Mapping;
 use crate::{Verdict, audit, read, sheet};
 
@@ -135,4 +135,21 @@ fn rounding_on_the_way_is_named_where_u_changes() {
         answer("sheet.csv", &sheet("0.0015", "0.0016", "0.0032")).0,
         Verdict::Sound
     );
+}
+
+/// u_c = √(700² + 1400² + 2887² + 500²) = 3322 µV; 2·3322 = 6644 µV is 6640 to three digits, which is one more than is reported.
+#[test]
+fn the_zeros_of_a_long_whole_number_are_no_digits() {
+    let sheet = |expanded: &str| {
+        format!(
+            "DC voltage 100 V\nComponent,Limits / µV,Distribution,Divisor,u / µV\n\"Calibrator, certificate U (k=2)\",1400,normal,2,700\n\
+             Calibrator drift,2425,rectangular,√3,1400\nResolution of DMM,5000,rectangular,√3,2887\n\
+             Repeatability (std. dev. of mean),500,normal,1,500\nu_c,,,,3322\nU (k=2),,,,{expanded}\n"
+        )
+    };
+    for expanded in ["6640", "6644"] {
+        assert_eq!(first("sheet.csv", &sheet(expanded)), "too-many-digits");
+    }
+    is_sound("sheet.csv", &sheet("6600"));
+    assert_eq!(answer("sheet.csv", &sheet("6740")).0, Verdict::Unexplained);
 }

@@ -1,6 +1,6 @@
 //! What figures of the whole are called, and sources that are called like them.
 
-use super::{answer, first, is_sound};
+use super::{answer, first, is_sound, understood};
 use crate::Verdict;
 use crate::read::Mapping;
 
@@ -174,4 +174,36 @@ fn a_line_that_may_state_u_is_told() {
         let told = crate::read::unread_expanded(&claims[0]);
         assert_eq!(told.map(|line| line.text.as_str()), line, "{whole}");
     }
+}
+
+/// A rule for rounding may stand where a title would: 2 · 0.4163 = 0.8327 is 0.84, rounded up.
+#[test]
+fn the_first_line_may_be_a_rule() {
+    let sheet = |first: &str, expanded: &str| {
+        format!(
+            "{first}\nSource,u_i (µm),c_i,u_i(y) (µm)\nReference,0.30,1,0.300\nResolution,0.2887,1,0.2887\nu_c,,,0.4163\nU (k = 2),,,{expanded}\n"
+        )
+    };
+    let rule = "Lab rule: U is rounded up to two significant digits";
+    is_sound("sheet.csv", &sheet(rule, "0.84"));
+    assert_eq!(first("sheet.csv", &sheet(rule, "0.83")), "rounded-down");
+    is_sound("sheet.csv", &sheet("Round gauges", "0.83"));
+}
+
+/// u_c may be called by its symbol behind a word for an uncertainty: √(0.030² + 0.0346² + 0.0115² + 0.024²) = 0.0530, and
+/// 0.1001 where the amounts are added.
+#[test]
+fn u_c_may_stand_behind_another_name() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "Größe;Bezeichnung;Halbweite / Unsicherheit;Verteilung;Teiler;Empfindlichkeitskoeffizient;Beitrag\n\
+             p_N;Normal, Kalibrierschein (U, k=2);0,060;normal;2;1;0,0300\nδp_D;Drift des Normals;0,060;Rechteck;√3;1;0,0346\n\
+             δp_A;Ablesung;0,020;Rechteck;√3;1;0,0115\nδp_W;Standardabweichung des Mittelwerts;0,024;normal;1;1;0,0240\n\n\
+             ;Standardunsicherheit u_c;;;;;{u_c}\n;Erweiterte Unsicherheit U (k = 2,00);;;;;{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0,0530", "0,11"));
+    assert_eq!(first("sheet.csv", &sheet("0,1001", "0,20")), "linear-sum");
+    let claims = understood("sheet.csv", &sheet("0,0530", "0,11"));
+    assert!(claims[0].footer.u_c.is_some());
 }

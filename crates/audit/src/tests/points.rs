@@ -247,3 +247,32 @@ fn points_in_columns_with_units_in_brackets() {
     let titles: Vec<&str> = found.iter().map(|(title, _)| title.as_str()).collect();
     assert_eq!(titles, ["Clamp meter: 50 A", "Clamp meter: 500 A"]);
 }
+
+/// What stands above the columns of a point may have a word beside the amount: 0.0077² = 0.0050² + 0.0035² + 0.0023² + 0.0029² +
+/// 0.0030², and likewise 0.0153.
+#[test]
+fn titles_of_points_may_have_words() {
+    let sheet = |[first, second]: [&str; 2], u_c: &str, expanded: &str| {
+        format!(
+            "Thermometer with two points\n,,,{first},,{second},\nSource,Distribution,Divisor,± / mV,u / mV,± / mV,u / mV\n\
+             \"Reference, certificate (k=2)\",normal,2,0.010,0.0050,0.020,0.0100\nDrift of reference,rectangular,√3,0.006,0.0035,0.010,0.0058\n\
+             Bath,rectangular,√3,0.004,0.0023,0.015,0.0087\nResolution,rectangular,√3,0.005,0.0029,0.005,0.0029\n\
+             Repeatability,normal,1,0.003,0.0030,0.004,0.0040\nCombined,,,,0.0077,,{u_c}\nExpanded (k=2),,,,0.015,,{expanded}\n"
+        )
+    };
+    for titles in [
+        ["0 °C", "100 °C"],
+        ["at 0 °C", "at 100 °C"],
+        ["10 V range", "100 V range"],
+    ] {
+        for (u_c, expanded, verdict) in [
+            ("0.0153", "0.031", Verdict::Sound),
+            // The amounts added.
+            ("0.0314", "0.063", Verdict::WithEffect),
+        ] {
+            let found = verdicts(&sheet(titles, u_c, expanded));
+            let found: Vec<Verdict> = found.into_iter().map(|(_, verdict)| verdict).collect();
+            assert_eq!(found, [Verdict::Sound, verdict], "{titles:?}");
+        }
+    }
+}

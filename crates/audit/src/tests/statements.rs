@@ -1,6 +1,6 @@
 //! The statement of a sheet: closing lines that stand as the last row of a table, and the result itself.
 
-use super::{answer, first, understood};
+use super::{answer, first, is_sound, understood};
 use crate::claim::{Claimed, Footer};
 use crate::printed::Printed;
 use crate::read::{self, Mapping};
@@ -255,4 +255,32 @@ fn relative_figures_of_the_whole_are_of_the_result() {
     let percent = "Source,Relative standard uncertainty (%)\na,0.3\nb,0.4\nF,100 kN\nCombined relative standard uncertainty,0.50 %\n\
                    \"Expanded uncertainty, k = 2\",1.0 %\n";
     assert_eq!(value(&footer(percent).1.u_c), Some(0.5));
+}
+
+/// Lines that end in what they come to, one with its coefficient in it: √(0.025² + 0.0173² + 0.0332² + 0.0089²) = 0.0459 µm, and
+/// 0.0451 µm with 0.030/2 in the second.
+#[test]
+fn a_conclusion_may_hold_its_coefficient() {
+    let told = |second: &str| {
+        format!(
+            "Uncertainty of the length of a gauge block\n\nThe certificate of the reference block states U = 0.050 µm with k = 2, so u1 = 0.025 µm.\n\
+             The comparator has an error limit of ±0.030 µm (rectangular): u2 = {second} µm.\n\
+             Temperature difference ±0.05 °C, c = 1.15 µm/°C: u3 = 0.05/√3 × 1.15 = 0.0332 µm.\n\
+             Repeatability: s = 0.020 µm, 5 readings, u4 = 0.020/√5 = 0.0089 µm.\n"
+        )
+    };
+    let whole = |u_c: &str, expanded: &str| {
+        format!(
+            "Combined standard uncertainty u_c = {u_c} µm.\nExpanded uncertainty U = 2 × {u_c} µm = {expanded} µm (k = 2).\n"
+        )
+    };
+    is_sound(
+        "told.txt",
+        &(told("0.030/√3 = 0.0173") + &whole("0.0459", "0.092")),
+    );
+    let slip = first(
+        "told.txt",
+        &(told("0.030/2 = 0.0150") + &whole("0.0451", "0.090")),
+    );
+    assert!(slip.starts_with("half-width-by-2@"), "{slip}");
 }

@@ -7,7 +7,7 @@ use gumption_audit::search::{Broken, Gap};
 use gumption_audit::slips::Change;
 use gumption_audit::{Audit, Verdict};
 use gumption_core::distribution::Entry;
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use crate::language::Language;
 use crate::number::{significant, significant_up};
@@ -126,7 +126,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         }],
         Verdict::WithoutEffect => vec![
             named(),
-            say!("The result as printed does not change: U = {right_u}.").in_language(language),
+            unchanged(audit, &right_u).in_language(language),
             chance(),
         ],
         Verdict::Unexplained => {
@@ -149,6 +149,13 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
         ).to_string()],
     }
+}
+
+/// That U stays as it is printed, which is how the laboratory rounded it; `right_u` where none is claimed.
+fn unchanged(audit: &Audit<'_>, right_u: &str) -> Said {
+    let expanded = audit.found.case.claimed.footer.expanded.as_ref();
+    let right_u = expanded.map_or_else(|| right_u.to_owned(), |u| as_claimed(audit, u));
+    say!("The result as printed does not change: U = {right_u}.")
 }
 
 /// What a claim lacks that cannot be recomputed: what leads from some rows to the result.

@@ -9,6 +9,8 @@ use crate::units;
 pub struct Evidence<'a> {
     /// Name, remarks and notes: true.
     pub words: &'a str,
+    /// The title of the sheet.
+    pub title: &'a str,
     /// The laboratory's columns of distribution and type.
     pub columns: &'a str,
     /// The ± column.

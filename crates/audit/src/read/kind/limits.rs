@@ -33,7 +33,7 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     // The reason is known of volumes of glassware, which are made to their nominal value (QUAM:2012, A1).
     let to_nominal = || {
         let of_column = shape(&e.columns.to_lowercase());
-        of_column.filter(|shape| *shape == Shape::Triangular && has(text, GLASSWARE))
+        of_column.filter(|shape| *shape == Shape::Triangular && is_of_glassware(e, text))
     };
     // `accuracy, 99 %`, divided by 2.58.
     let of_probability = || {
@@ -51,6 +51,23 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         shape: shape.unwrap_or(Shape::Rectangular),
         shape_stated: shape.is_some(),
     })
+}
+
+/// Whether limits are those of the capacity of glassware, which the row says, or the title where the row is about a volume.
+fn is_of_glassware(e: &Evidence<'_>, text: &str) -> bool {
+    const OF_VOLUME: &[&str] = &[
+        "calibration",
+        "volume",
+        "capacity",
+        "tolerance",
+        "nominal",
+        "容量",
+        "体积",
+        "校准",
+        "允差",
+    ];
+    let is_titled = || has(&e.title.to_lowercase(), GLASSWARE);
+    has(text, GLASSWARE) || has(text, OF_VOLUME) && is_titled()
 }
 
 /// Whether a text speaks of 95 %, and not of 0.95 % or 95 %RH.

@@ -6,7 +6,9 @@
 //! | `subject` | what its words are about |
 //! | `readings` | what is known from readings |
 //! | `limits` | limits, steps and certificates |
+//! | `abbreviated` | distributions that a letter stands for |
 
+mod abbreviated;
 mod evidence;
 mod limits;
 mod readings;
@@ -20,6 +22,7 @@ use super::converter;
 use super::family::*;
 use super::words::{figure_after, has, named_probability, with_units_inside};
 
+pub(crate) use abbreviated::spelled;
 pub use evidence::Evidence;
 pub(crate) use limits::shape;
 use limits::{certificate, cycling, full_width, limits, step, unequal};
@@ -66,7 +69,7 @@ pub(crate) fn is_of_type(columns: &str, letter: &str) -> bool {
 pub(crate) fn names_distribution(word: &str) -> bool {
     let lower = word.to_lowercase();
     let of_type = ["a", "b", "a类", "b类"].contains(&lower.as_str());
-    of_type || shape(&lower).is_some() || has(&lower, NORMAL) || lower == "t分布"
+    of_type || lower == "t" || shape(&lower).is_some() || has(&lower, NORMAL) || lower == "t分布"
 }
 
 /// Words without the clause that says in which other row this one is contained: what that one is, is not said of this.

@@ -3,18 +3,24 @@
 use crate::read::columns::apart;
 use crate::sheet::{Cell, Grid};
 
-use super::amount;
+use super::{amount, names_points};
 
 /// The sheet with both lines of such a head in the second one, `at 1 bar ±` and `at 1 bar u`; nothing where there are none.
 pub(super) fn joined(grid: &Grid, head: usize) -> Option<Grid> {
     let above: Vec<(usize, &Cell)> = grid.filled(head).collect();
-    let is_point = |text: &str| amount(text).is_some_and(|(_, rest)| rest.is_empty());
+    // `at 0 °C`, `10 V range`: with no more words than that.
+    let point = |text: &str| {
+        let (name, rest) = amount(text)?;
+        let is_alone = rest.is_empty() || names_points(&rest) && !rest.contains(' ');
+        is_alone.then_some(name)
+    };
+    let is_point = |text: &str| point(text).is_some();
     let below = |column: usize| grid.cell(head + 1, column);
     let is_words = |(_, cell): (usize, &Cell)| cell.figure().is_none();
     let spanned = |column: usize| {
         let (at, cell) = above.iter().rev().find(|(at, _)| *at <= column)?;
-        let is_spanned = is_point(&cell.text) && !below(column).is_empty();
-        is_spanned.then_some((*at, cell.text.as_str()))
+        let name = point(&cell.text).filter(|_| !below(column).is_empty());
+        name.map(|name| (*at, name))
     };
     let width = grid.rows.get(head + 1)?.len();
     let of_span = |start: usize| {

@@ -186,6 +186,42 @@ fn without_coefficient(grid: &Grid, located: &mut Located) {
     }
 }
 
+/// `Divisor | c_i | Std. unc. (µm)`: what is called u is the contribution where the ± and the divisor give it with the
+/// coefficient, and in no row without.
+pub(super) fn with_coefficient(grid: &Grid, located: &mut Located) {
+    let roles = [Role::Used, Role::Divisor, Role::C, Role::U];
+    let indices: Vec<usize> = roles.iter().filter_map(|role| at(located, *role)).collect();
+    let [used, divisor, c, u_column] = indices[..] else {
+        return;
+    };
+    if located.has(Role::Contribution) {
+        return;
+    }
+    let is_made = |row: &usize| {
+        let figure = |index: usize| grid.cell(*row, index).figure();
+        let (a, divisor, c, u) = (
+            figure(used)?,
+            figure(divisor)?,
+            figure(c)?,
+            figure(u_column)?,
+        );
+        let unit_of = |index: usize| located.unit_in(grid, *row, index);
+        let to_u = units::factor(&unit_of(used), &unit_of(u_column)).unwrap_or(1.0);
+        let is_u = |x: f64| u.is_met_within(x.abs(), u.half + 0.01 * u.value.abs());
+        // The coefficient may hold the conversion of units.
+        let gives = |x: f64| is_u(x) || is_u(to_u * x);
+        let alone = a.value / divisor.value;
+        Some((gives(c.value * alone), gives(alone)))
+    };
+    let rows: Vec<(bool, bool)> = located.rows.iter().filter_map(is_made).collect();
+    let shows = |with: bool| rows.contains(&(with, !with));
+    let is_contribution = shows(true) && !shows(false);
+    let mut columns = located.columns.iter_mut();
+    if let Some(column) = columns.find(|column| is_contribution && column.index == u_column) {
+        column.role = Role::Contribution;
+    }
+}
+
 /// Columns of words whose heads say nothing: short ones in front are symbols, long ones are remarks.
 fn nameless_words(grid: &Grid, located: &mut Located) {
     let width = grid.rows[located.head].len();

@@ -31,7 +31,7 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     if !is_table || is_matrix(grid, row) {
         return None;
     }
-    let names = |index: usize| names_below(grid, row, index);
+    let names = |index: usize| told_below(grid, row, index);
     let mut columns = roles(&filled, mapping, &names);
     if let Some(column) = nameless_names(&columns, grid, &names, &filled) {
         columns.push(column);
@@ -133,7 +133,8 @@ fn nameless_names(
     let index = first
         .checked_sub(1)
         .filter(|_| !is_named && !columns.is_empty())?;
-    let role = names(index).filter(|_| !grid.hidden_columns.contains(&index))?;
+    let is_name = |role: &Role| *role != Role::Derived && !grid.hidden_columns.contains(&index);
+    let role = names(index).filter(is_name)?;
     let (head, unit) = (String::new(), String::new());
     Some(Column {
         index,
@@ -141,6 +142,26 @@ fn nameless_names(
         head,
         unit,
     })
+}
+
+/// What the cells of a column say that it is, where its head promises computed figures.
+fn told_below(grid: &Grid, head: usize, index: usize) -> Option<Role> {
+    let are_shares = || are_shares(grid, head, index).then_some(Role::Derived);
+    names_below(grid, head, index).or_else(are_shares)
+}
+
+/// Whether the figures of a column total 100, which one of them may be below the others: shares of one whole, in percent.
+fn are_shares(grid: &Grid, head: usize, index: usize) -> bool {
+    let figure = |row: usize| grid.cell(row, index).figure();
+    let below: Vec<Printed> = (head + 1..grid.rows.len()).map_while(figure).collect();
+    let is_whole = |shares: &[Printed]| {
+        let total: f64 = shares.iter().map(|share| share.value).sum();
+        // Each is rounded for itself.
+        let open: f64 = shares.iter().map(|share| share.half).sum();
+        shares.len() >= 2 && (total - 100.0).abs() <= open
+    };
+    let without_total = || below.split_last().map_or(&below[..0], |(_, shares)| shares);
+    is_whole(&below) || is_whole(without_total())
 }
 
 /// What a column is whose head promises figures and which holds none below it: `标准不确定度分量` above `u(m_1)` names
@@ -167,7 +188,10 @@ fn roles(
     let said = |index: usize, text: &str| {
         let (role, unit) = columns::role(text)?;
         let computed = matches!(role, Role::U | Role::C | Role::Contribution);
-        let of_cells = names(index).filter(|_| computed);
+        // `Contribution (%)`: what else totals 100 may do so by chance.
+        let may_be_share = role == Role::Contribution && units::fraction(&unit) == Some(0.01);
+        let is_meant = |told: &Role| *told != Role::Derived || may_be_share;
+        let of_cells = names(index).filter(|told| computed && is_meant(told));
         Some(of_cells.map_or((role, unit), |role| (role, String::new())))
     };
     let contributions = filled.iter().any(|(index, text)| {
@@ -338,7 +362,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         .filter(|(_, text)| !text.is_empty())
         .collect();
     let joined: Vec<(usize, &str)> = joined.iter().map(|(i, text)| (*i, text.as_str())).collect();
-    let together = roles(&joined, mapping, &|index| names_below(grid, row, index));
+    let together = roles(&joined, mapping, &|index| told_below(grid, row, index));
     let evaluated = |columns: &[Column]| {
         let of = |role: Role| columns.iter().any(|c| c.role == role);
         [Role::U, Role::Contribution, Role::Dof]
@@ -350,7 +374,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
     // Below `标准不确定度评定`, which spans them, `半宽 (g)` is what it says, and no standard uncertainty.
     let below_alone = || {
         evaluated(&roles(&filled, mapping, &|index| {
-            names_below(grid, row, index)
+            told_below(grid, row, index)
         }))
     };
     let says_as_much = below_merged.is_some() && below_alone() >= evaluated(&together);
@@ -376,7 +400,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             (index, own.map_or_else(above, |(_, text)| *text))
         });
         let words: Vec<(usize, &str)> = words.filter(|(_, text)| !text.is_empty()).collect();
-        let mut columns = roles(&words, mapping, &|index| names_below(grid, row, index));
+        let mut columns = roles(&words, mapping, &|index| told_below(grid, row, index));
         relative_contributions(grid, row, &mut columns);
         // Names without a head.
         for column in located.columns.drain(..) {
@@ -389,7 +413,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         }
         located.columns = columns;
     } else if named * 2 > filled.len() && named >= 3 {
-        for column in roles(&filled, mapping, &|index| names_below(grid, row, index)) {
+        for column in roles(&filled, mapping, &|index| told_below(grid, row, index)) {
             let free = !located
                 .columns
                 .iter()
@@ -414,7 +438,7 @@ fn below_merged<'g>(
     mapping: &Mapping,
 ) -> Option<Vec<(usize, &'g str)>> {
     let row = head + 1;
-    let columns = roles(filled, mapping, &|index| names_below(grid, row, index));
+    let columns = roles(filled, mapping, &|index| told_below(grid, row, index));
     let spanned = |index: usize| {
         let above = |column: usize| !grid.cell(head, column).is_empty();
         index > 0

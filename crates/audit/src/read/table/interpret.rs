@@ -17,7 +17,7 @@ use super::relative::settle_by_amount;
 /// Turns words and columns of each row into what is known of it, and its figures into one unit.
 pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     let mean_of = claimed.reported_mean_of;
-    let y_unit = claimed.unit.clone();
+    let (y_unit, title) = (claimed.unit.clone(), claimed.title.clone());
     for (raw, row) in raw.iter().zip(&mut claimed.rows) {
         let figures = [&row.used, &row.u, &row.value];
         let units = figures.into_iter().flatten().map(|figure| &figure.unit);
@@ -26,6 +26,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         let words = own.map_or(words.clone(), |unit| words::of_unit(&words, unit));
         let evidence = Evidence {
             words: &words,
+            title: &title,
             columns: &raw.columns_text,
             used: row.used.as_ref(),
             used_head: &raw.used_head,
@@ -68,6 +69,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         }
         row.leave_what_is_of_another_unit();
         row.convert_to_one_unit(&y_unit);
+        row.convert_contribution(&y_unit);
     }
     add_absent(claimed);
     settle_by_amount(claimed);
@@ -271,6 +273,17 @@ impl Row {
         self.stated.standard().is_some_and(|(stated, _)| {
             are_bare && distance(stated * fraction * value.value.abs()) < distance(stated)
         })
+    }
+
+    /// The contribution in the unit of the result: cells of one column may each have their own.
+    fn convert_contribution(&mut self, y_unit: &str) {
+        let Some(figure) = &mut self.contribution else {
+            return;
+        };
+        if let Some(factor) = units::factor(&figure.unit, y_unit).filter(|factor| *factor != 1.0) {
+            *figure = figure.clone().scaled(factor);
+            figure.unit = y_unit.to_owned();
+        }
     }
 
     /// Figures of ± and of what is stated in the unit of u, where all units are known.

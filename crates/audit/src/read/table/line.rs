@@ -4,6 +4,7 @@ use crate::claim::{Figure, Row, Unplaced};
 use crate::printed::{self, Place, Printed};
 use crate::read::columns::{Role, names_factor};
 use crate::read::footer;
+use crate::read::kind::{names_distribution, spelled};
 use crate::read::words::{alone, has};
 use crate::sheet::Grid;
 use crate::units;
@@ -42,7 +43,7 @@ impl<'a> Line<'a> {
         ];
         let formula = |(role, figure)| Some((figure, self.formula(role)?));
         Raw {
-            columns_text: [self.text(Role::Distribution), self.text(Role::Type)].join(" ; "),
+            columns_text: [self.distribution(), self.text(Role::Type)].join(" ; "),
             used_head: head(Role::Used).unwrap_or_default().to_string(),
             divisor_is_factor: head(Role::Divisor).is_some_and(names_factor),
             readings: self.figure(Role::Readings).map(|n| n.value),
@@ -61,8 +62,9 @@ impl<'a> Line<'a> {
                 dof: self.dof(),
                 unit: alone(self.unit_beside(0)).to_string(),
                 unread_unit: self.unread_unit(),
+                unread_distribution: self.unread_distribution(),
                 is_hidden: self.grid.hidden_rows.contains(&self.row),
-                distribution: self.text(Role::Distribution),
+                distribution: self.distribution(),
                 evaluation: self.text(Role::Type),
                 share: self.derived(is_share),
                 formulas: formulas.into_iter().filter_map(formula).collect(),
@@ -92,6 +94,20 @@ impl<'a> Line<'a> {
         let texts = columns.map(|column| self.text_in(column));
         let texts: Vec<&str> = texts.filter(|text| !text.is_empty()).collect();
         texts.join("; ")
+    }
+
+    /// What its column calls the distribution, in full.
+    fn distribution(self) -> String {
+        spelled(&self.text(Role::Distribution), self.divided_by())
+    }
+
+    /// By what the figure that is known was divided: its divisor, or what u or the contribution shows.
+    fn divided_by(self) -> Option<f64> {
+        let value = |role: Role| self.figure(role).map(|figure| figure.value.abs());
+        let c = value(Role::C).unwrap_or(1.0);
+        let of_u = || Some(value(Role::Used)? / value(Role::U)?);
+        let of_contribution = || Some(c * value(Role::Used)? / value(Role::Contribution)?);
+        value(Role::Divisor).or_else(of_u).or_else(of_contribution)
     }
 
     fn figure(self, role: Role) -> Option<Printed> {
@@ -126,6 +142,19 @@ impl<'a> Line<'a> {
         figures.find(unread).map(|figure| Unplaced {
             at: figure.at,
             text: figure.unit,
+        })
+    }
+
+    /// What stands in the column of distributions and is neither one, nor a type of evaluation.
+    fn unread_distribution(self) -> Option<Unplaced> {
+        let column = self.located.column(Role::Distribution)?;
+        let text = self.text_in(column);
+        // Longer ones are remarks, or say how the figure came about.
+        let is_word = text.contains(char::is_alphabetic) && !text.contains(char::is_whitespace);
+        let is_unread = is_word && !names_distribution(&self.distribution());
+        is_unread.then(|| Unplaced {
+            at: self.place(column.index),
+            text: text.to_owned(),
         })
     }
 

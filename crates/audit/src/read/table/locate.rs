@@ -10,7 +10,7 @@ use crate::read::words::has;
 use crate::sheet::Grid;
 use crate::units;
 
-use super::content::{by_content, nameless_figures};
+use super::content::{by_content, nameless_figures, with_coefficient};
 use super::head::{head, is_matrix, line_above, second_line};
 use super::labels;
 use super::located::Located;
@@ -38,6 +38,7 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 row = located.end.max(row + 1);
                 by_content(grid, &mut located);
                 nameless_figures(grid, &mut located);
+                with_coefficient(grid, &mut located);
                 if !located.rows.is_empty() {
                     let unit = located.unit(Role::Contribution);
                     let is_power = units::power_of_ten(unit).is_some();

@@ -206,3 +206,97 @@ fn the_k_of_a_certificate_may_stand_in_its_column() {
     let undivided = fired("", "k", "2.00", "0.0194");
     assert!(undivided.contains(&77), "{undivided:?}");
 }
+
+/// A date is that of what stands in front of it: a standard is calibrated on another day than it is used.
+#[test]
+fn a_certificate_ends_on_the_day_that_its_words_name() {
+    let hits = |line: &str| -> Vec<String> {
+        let text = format!(
+            "Length of rod\n\"{line}\"\nSource,± value,unit,Distribution,Divisor,c,u_i(y) [µm]\n\
+             Alignment,0.5,µm,rectangular,√3,1,0.29\nRepeatability (std of mean),0.3,µm,normal,1,1,0.3\n\
+             u_c,,,,,,0.42\nU (k=2),,,,,,0.83\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        let of_rule = all.into_iter().filter(|finding| finding.rule == 80);
+        of_rule.map(|finding| finding.numbers).collect()
+    };
+    for line in [
+        "Reference standard calibrated on 2025-06-01, valid until 2027-06-01",
+        "Laser interferometer: calibrated on 2025-06-01, next calibration due 2027-06-01. Measured on 2026-03-04",
+        // Whether the standard or the device was calibrated on that day, is not said.
+        "Calibrated on 2026-03-04. The certificate of the laser: due date: 2025-01-15",
+        "Measured on 2026-03-04; the drift is due to the age of the lamp of 2025-01-01",
+    ] {
+        assert!(hits(line).is_empty(), "{line}: {:?}", hits(line));
+    }
+    for line in [
+        "Certificate valid until 2025-01-15; measured on 2026-03-04",
+        "Date of measurement: 2026-03-04. Certificate valid until 2025-01-15",
+        "Date of this budget: 2026-03-04; certificate valid until 2025-01-15",
+        "Date: 2026-03-04, laser No. 12, due 2025-01-15",
+        "Calibration date 2026-03-04; certificate of the standard expired 2025-01-15",
+    ] {
+        assert_eq!(hits(line), ["2025-01-15 < 2026-03-04"], "{line}");
+    }
+}
+
+/// What is in a row is not asked for, in whatever language of the heads that are read.
+#[test]
+fn french_and_german_rows_are_seen() {
+    let fired = |[drift, scatter, step]: [&str; 3]| -> Vec<u8> {
+        let text = format!(
+            "Grandeur;Source d'incertitude;Étendue ±;Loi de distribution;Diviseur;Incertitude-type u(xi);Coefficient de sensibilité;Contribution (µm)\n\
+             L_e;Étalon, certificate U (k=2);0,050 µm;normale;2;0,025 µm;1;0,025\nd_L;{drift};0,060 µm;rectangulaire;1,732;0,0346 µm;1;0,0346\n\
+             r;{scatter};0,012 µm;normale;1;0,012 µm;1;0,012\nq;{step};0,010 µm;rectangulaire;1,732;0,0058 µm;1;0,0058\n\n\
+             Incertitude-type composée u_c;;;;;;;0,0448 µm\nIncertitude élargie U (k=2);;;;;;;0,090 µm\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().map(|finding| finding.rule).collect()
+    };
+    let asked = |rules: &[u8]| [34, 35, 36].map(|rule| rules.contains(&rule));
+    let french = [
+        "Dérive de l'étalon",
+        "Répétabilité de la moyenne",
+        "Résolution",
+    ];
+    let german = ["Alterung des Normals", "Wiederholbarkeit", "Auflösung"];
+    for words in [french, german] {
+        assert_eq!(asked(&fired(words)), [false; 3], "{words:?}");
+    }
+    assert_eq!(
+        asked(&fired(["Pression", "Opérateur", "Humidité"])),
+        [true; 3]
+    );
+}
+
+/// A correlation that is told in words alone is asked about; one that is denied is not.
+#[test]
+fn a_correlation_in_words_is_asked_about() {
+    let fired = |line: &str| -> bool {
+        let text = format!(
+            "Three 1 kg weights as a 3 kg standard\n\"{line}\"\nComponent,Uncertainty (mg),Distribution,Divisor,u (mg)\n\
+             Weight 1 certificate U k=2,0.50,normal,2,0.25\nWeight 2 certificate U k=2,0.50,normal,2,0.25\n\
+             Repeatability,0.10,normal,1,0.10\nCombined,,,,0.37\nExpanded k=2,,,,0.73\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().any(|finding| finding.rule == 56)
+    };
+    for line in [
+        "All three weights were calibrated against the same reference; their errors are fully correlated (r = 1)",
+        "The weights are correlated since they were calibrated with the same standard; correlation neglected",
+    ] {
+        assert!(fired(line), "{line}");
+    }
+    for line in [
+        "All inputs are uncorrelated",
+        "Correlation: none, the inputs are independent",
+    ] {
+        assert!(!fired(line), "{line}");
+    }
+}

@@ -302,9 +302,17 @@ impl<'s> Checker<'s> {
             let fault = Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
                 .label(say!("the left side is what was observed"));
             let columns = headers.join(", ");
-            let unused = headers.iter().filter(|other| names.kind(other).is_none());
-            let unused: Vec<&str> = unused.copied().collect();
-            let near = nearest(name, headers.iter().copied()).or(match unused[..] {
+            let declared = entries(&self.source.table.columns);
+            let role = |name: &str| {
+                let (_, entry) = declared.iter().find(|(other, _)| other == name)?;
+                entry.value.0.role.as_ref().map(|role| role.value)
+            };
+            let is_free = |other: &&str| match role(other) {
+                Some(role) => role == RoleWord::Output && !names.is_left(other),
+                None => names.kind(other).is_none(),
+            };
+            let free: Vec<&str> = headers.iter().copied().filter(is_free).collect();
+            let near = nearest(name, headers.iter().copied()).or(match free[..] {
                 [only] => Some(only),
                 _ => None,
             });

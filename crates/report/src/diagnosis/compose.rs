@@ -88,7 +88,7 @@ fn as_differences(case: &Case, l: Language) -> String {
         return String::new();
     }
     let names = names.join(l.list_comma());
-    say!("; temperatures in formulas as differences from 0 of their scale: {names}").in_language(l)
+    say!("; {names} as differences from 0 of the scale").in_language(l)
 }
 
 fn located(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {

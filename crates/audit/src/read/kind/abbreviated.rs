@@ -14,7 +14,7 @@ const NAMES: &[(&str, &str)] = &[
     ("square", "rectangular"),
     ("triangular", "triangular"),
     ("dreieck", "triangular"),
-    ("trapezoidal", "trapezoidal"),
+    ("trapezoid", "trapezoid"),
     ("u-shaped", "u-shaped"),
     ("t-distribution", "t"),
 ];

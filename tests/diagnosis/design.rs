@@ -538,7 +538,10 @@ fn thermometers_are_compared_in_degrees_celsius() {
     // For a temperature the square is a second-order temperature coefficient.
     assert!(named(&found)[0].ends_with("quadratic"), "{found:#}");
     let (good, page) = gumption(&folder, &["diagnose", "case.toml"]);
-    assert!(good && page.contains("sensor, ref as differences from 0"), "{page}");
+    assert!(
+        good && page.contains("sensor, ref as differences from 0"),
+        "{page}"
+    );
     assert!(
         gumption(
             &folder,

@@ -307,15 +307,17 @@ impl<'s> Checker<'s> {
                 let (_, entry) = declared.iter().find(|(other, _)| other == name)?;
                 entry.value.0.role.as_ref().map(|role| role.value)
             };
-            let is_free = |other: &&str| match role(other) {
-                Some(role) => role == RoleWord::Output && !names.is_left(other),
-                None => names.kind(other).is_none(),
+            let is_output =
+                |other: &str| role(other) == Some(RoleWord::Output) && !names.is_left(other);
+            let is_unused = |other: &str| role(other).is_none() && names.kind(other).is_none();
+            let only = |is_it: &dyn Fn(&str) -> bool| {
+                let mut found = headers.iter().copied().filter(|other| is_it(other));
+                found.next().filter(|_| found.next().is_none())
             };
-            let free: Vec<&str> = headers.iter().copied().filter(is_free).collect();
-            let near = nearest(name, headers.iter().copied()).or(match free[..] {
-                [only] => Some(only),
-                _ => None,
-            });
+            let near = nearest(name, headers.iter().copied());
+            let near = near
+                .or_else(|| only(&is_output))
+                .or_else(|| only(&is_unused));
             self.faults.push(match near {
                 Some(near) => fault.help(say!("did you mean `{near}`?")),
                 None => fault.help(say!("its columns are: {columns}")),

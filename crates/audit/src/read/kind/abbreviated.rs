@@ -12,8 +12,8 @@ const NAMES: &[(&str, &str)] = &[
     ("rechteck", "rectangular"),
     ("uniform", "rectangular"),
     ("square", "rectangular"),
-    ("triangular", "triangular"),
-    ("dreieck", "triangular"),
+    ("triangle", "triangle"),
+    ("dreieck", "triangle"),
     ("trapezoid", "trapezoid"),
     ("u-shaped", "u-shaped"),
     ("t-distribution", "t"),
@@ -59,7 +59,7 @@ fn meant(named: &dyn Fn(&str) -> bool, ratio: Option<f64>) -> Option<&'static st
 fn divisor(word: &str) -> Option<f64> {
     let shape = match word {
         "rectangular" => Shape::Rectangular,
-        "triangular" => Shape::Triangular,
+        "triangle" => Shape::Triangular,
         "u-shaped" => Shape::Arcsine,
         _ => return None,
     };
@@ -86,7 +86,7 @@ mod tests {
             ("U", Some(1.41), "u-shaped"),
             ("U", Some(1.74), "rectangular"),
             ("Un", None, "rectangular"),
-            ("T", Some(2.45), "triangular"),
+            ("T", Some(2.45), "triangle"),
             // Of which nothing tells, is left as it is.
             ("U", Some(1.0), "U"),
             ("T", None, "T"),

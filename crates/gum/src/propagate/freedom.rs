@@ -347,7 +347,7 @@ fn origin(terms: &[Term]) -> Origin {
 mod tests {
     use super::*;
     use crate::budget::{Group, Law};
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DMatrix;
 
     fn welch_satterthwaite(parts: &[(f64, f64)]) -> f64 {
         effective_freedom(parts.iter().copied())

@@ -40,7 +40,7 @@ pub(super) fn evaluate(
     let correlation = linear.correlations();
     let u = |a: usize| linear.measurands[a].u;
     let forms: Vec<&Form> = linear.measurands.iter().map(|m| &m.form).collect();
-    let own: Vec<f64> = (0..count).map(|a| u(a)).map(not_zero).collect();
+    let own: Vec<f64> = (0..count).map(|a| not_zero(u(a))).collect();
     let common = in_one_unit(budget.model.outputs());
     let dof = freedom::effective_joint(&linear.covariance, &forms, common.as_ref().unwrap_or(&own))
         .report(|component| budget.components[component].name.to_string());

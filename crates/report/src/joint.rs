@@ -1,6 +1,6 @@
 //! The joint result of several measurands (JCGM 102).
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use nalgebra::DMatrix;
 
 use super::language::{Language, Word};
@@ -9,7 +9,7 @@ use super::statement::{Coefficients, coefficient};
 use super::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, Column, ColumnKind, Table};
-use gumption_gum::propagate::Basis;
+use gumption_gum::propagate::{Basis, EllipsoidBy};
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
@@ -42,8 +42,11 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     }
     blocks.push(Block::Table(regions(report)));
     let p = probability(report.coverage_probability());
-    let dof = freedom(joint.dof.value());
-    blocks.push(Block::Paragraph(say!("k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix (ν = {dof}).").in_language(l)));
+    let by = match joint.ellipsoid_by {
+        EllipsoidBy::Matrix => Said::quoted(format!("ν = {}", freedom(joint.dof.value()))),
+        EllipsoidBy::Margins => say!("by the ν_eff of each measurand"),
+    };
+    blocks.push(Block::Paragraph(say!("k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix ({by}).").in_language(l)));
     blocks
 }
 

@@ -47,7 +47,7 @@ pub(super) fn hasty(terms: &[NamedTerm]) -> Option<UnitError> {
     let [power, millikelvin] = terms else {
         return None;
     };
-    let is_power = ["W", "mW", "kW"].contains(&power.name.as_str());
+    let is_power = ["W", "mW", "kW"].contains(&power.name.as_str()) && power.exponent > 0;
     let is_below = millikelvin.name == "mK" && millikelvin.exponent == -power.exponent;
     (is_power && is_below).then(|| {
         let (span, power) = (millikelvin.span.clone(), &power.name);

@@ -48,9 +48,9 @@ pub use requirements::{MOST as MOST_MULTIPLE, Needed, Requirement, Requirements,
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
     Consequence, Contribution, Coverage, CoverageBasis, DetectionLimit, DetectionResult,
-    EvaluatedRow, Evaluation, FewReadings, Finding, FindingKind, Freedom, GlobalRisk, Gum,
-    Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Quasi, QuasiRun, Regions,
-    Run, SecondOrder, SensitivityIndices, Side, SobolIndex, TrialMoments, Validation, Verdict,
-    WhyRandom,
+    EllipsoidBy, EvaluatedRow, Evaluation, FewReadings, Finding, FindingKind, Freedom, GlobalRisk,
+    Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Quasi, QuasiRun,
+    Regions, Run, SecondOrder, SensitivityIndices, Side, SobolIndex, TrialMoments, Validation,
+    Verdict, WhyRandom,
 };
 pub use rows::{BlockFigures, FigureColumns, RowEvaluation, RowFigures};

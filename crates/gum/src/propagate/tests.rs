@@ -100,6 +100,21 @@ fn gum_h_1_with_nine_inputs() {
     assert_eq!(result.reported(&budget.conventions).basis, Basis::Gum);
 }
 
+/// A phase that turns by a hundred revolutions within u: first order gives two hundred times what the trials show, so that none of the
+/// coefficients is one that vanishes.
+#[test]
+fn an_expansion_beyond_its_range_has_no_vanishing_coefficient() {
+    let budget = Draft::new()
+        .normal("a", 1.0, 0.01, INF)
+        .normal("x", 0.3, 600.0, INF)
+        .budget(0.95, &[("y", "a * (1 + 0.9 * cos(x))")]);
+    let found = run(&budget, MonteCarloChoice::AsBudget);
+    let vanishes = |kind: &&FindingKind| matches!(kind, FindingKind::VanishingSensitivity { .. });
+    assert!(!kinds(&found).into_iter().any(|kind| vanishes(&kind)));
+    let result = &found.results[0];
+    assert!(result.gum.u > 100.0 * result.monte_carlo.as_ref().unwrap().u.unwrap());
+}
+
 /// What is found of inputs without a sensitivity coefficient.
 fn vanishing(evaluation: &Evaluation) -> (Vec<&str>, f64, f64) {
     let found = evaluation.findings.iter().find_map(|f| match &f.kind {

@@ -289,9 +289,9 @@ impl Checker<'_> {
     fn name_with_blank(&self, equation: &str) -> Option<Fault> {
         let columns = entries(&self.source.table.columns).iter();
         let declared = columns.map(|(name, _)| name.as_str());
-        let left = equation.split('=').next().unwrap_or_default().trim();
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == ' ';
-        let left = Some(left).filter(|left| left.chars().all(is_word));
+        let left = equation.split_once('=').map(|(left, _)| left.trim());
+        let left = left.filter(|left| left.chars().all(is_word));
         let mut names = declared.chain(left).filter(|name| name.contains(' '));
         let (name, at) = names.find_map(|name| Some((name, equation.find(name)?)))?;
         let joined = name.replace(' ', "_");

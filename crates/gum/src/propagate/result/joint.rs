@@ -17,14 +17,25 @@ pub struct JointResult {
     pub monte_carlo_correlation: Option<DMatrix<f64>>,
     /// ν of the covariance matrix (Willink–Hall), infinite when all are.
     pub dof: Freedom,
-    /// k_p of the elliptical region for the GUM result (normal, or Hotelling's T² for finite ν).
+    /// k_p of the elliptical region for the GUM result.
     pub k_ellipsoid: f64,
+    /// What k_p follows from.
+    pub ellipsoid_by: EllipsoidBy,
     /// k_q of the hyper-rectangle (JCGM 102 6.5.3): simultaneous intervals y_j ± k_q u_j.
     pub k_rectangle: f64,
     /// Regions from Monte Carlo; `None` when not run or not defined.
     pub regions: Option<Regions>,
     /// Outputs that are (numerically) linear functions of the others, so that no region exists.
     pub degenerate: bool,
+}
+
+/// What k_p of the ellipsoid follows from: whichever gives the larger one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum EllipsoidBy {
+    /// ν of the covariance matrix: the normal distribution, or Hotelling's T² for finite ν.
+    Matrix,
+    /// The t-distribution of each measurand with its own ν_eff.
+    Margins,
 }
 
 /// Coverage regions from Monte Carlo (JCGM 102 7.7).

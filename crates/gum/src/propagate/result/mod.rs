@@ -15,7 +15,7 @@ pub use detection::{BestEstimate, CharacteristicLimits, DetectionLimit, Detectio
 pub use finding::{FewReadings, Finding, FindingKind};
 pub use gum::{Contribution, Coverage, CoverageBasis, Freedom, Gum, SecondOrder};
 pub use indices::{SensitivityIndices, SobolIndex};
-pub use joint::{JointResult, Regions};
+pub use joint::{EllipsoidBy, JointResult, Regions};
 pub use monte_carlo::{
     AdaptiveRun, Consequence, Histogram, MissingMoments, MonteCarlo, Run, Side, TrialMoments,
 };

@@ -92,6 +92,19 @@ fn kinds_of_columns_are_told() {
     assert!(twice.numbers("T [°C]").is_some() && twice.numbers("T [K]").is_some());
 }
 
+/// One row in another spelling makes no column of another decimal sign.
+#[test]
+fn a_row_with_another_decimal_sign_is_told_at_its_place() {
+    let text = "t [s];F [kN]\n0,1;5,25\n0.2;5.3\n0,3;5,35\n";
+    let requests = [
+        Request::numbers("t", "t [s]"),
+        Request::numbers("F", "F [kN]"),
+    ];
+    let told = faults(text, &requests);
+    let told: Vec<&str> = told.iter().map(|fault| &text[fault.span.clone()]).collect();
+    assert_eq!(told, ["0.2", "5.3"]);
+}
+
 #[test]
 fn all_faults_at_once_at_their_places() {
     let text = "time_s,U_mV\n0,1\n1,\"1,5\"\n2,abc\n3\n";

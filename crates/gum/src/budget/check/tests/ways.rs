@@ -181,6 +181,19 @@ fn what_a_count_or_a_small_sample_is_taken_for_is_told() {
         "{counted}"
     );
     assert!(one("successes = 3\ntrials = 4").contains("= 4 / 6, by"));
+    // What no event, or nothing but successes, allow is proposed: the reciprocal prior has no distribution there.
+    for keys in [
+        "count = 0",
+        "successes = 0\ntrials = 4",
+        "successes = 4\ntrials = 4",
+    ] {
+        let said = one(keys);
+        assert!(
+            said.contains("jeffreys") && !said.contains("reciprocal"),
+            "{said}"
+        );
+        assert!(remarks(&format!("{keys}\nprior = \"jeffreys\"")).is_empty());
+    }
     for prior in ["uniform", "jeffreys", "reciprocal"] {
         let counted = format!("count = 3\nprior = \"{prior}\"");
         assert!(remarks(&counted).is_empty(), "{prior}");

@@ -303,9 +303,6 @@ impl Evidence<'_> {
     /// second order finds of them: all of it, less what is left when they stay at their estimates. Nothing where that
     /// is not seen in the digits that are printed.
     fn vanished(&self, measurand: usize) -> Option<FindingKind> {
-        if self.is_overestimated(measurand) {
-            return None;
-        }
         let seen: Vec<Sight> = (0..self.budget.inputs.len())
             .map(|input| self.sight(measurand, input))
             .collect();
@@ -339,7 +336,7 @@ impl Evidence<'_> {
     }
 
     /// Whether first order ascribes to one standard uncertainty of an input more than half of the interval of the trials, beyond which
-    /// one trial of three would lie: the model cannot be expanded over so much, and its derivatives tell of none of the inputs.
+    /// one trial of three would lie: the model cannot be expanded over so much, and what its second derivatives say of a coefficient that is not zero means nothing.
     fn is_overestimated(&self, measurand: usize) -> bool {
         let result = &self.results[measurand];
         result.monte_carlo.as_ref().is_some_and(|mc| {
@@ -364,7 +361,8 @@ impl Evidence<'_> {
         }
         let gone = is_residue(line.contribution, u);
         let acts = gone && deviation * line.u > RESIDUE * u;
-        if acts || acts_at_second_order(line.sensitivity, deviation, line.u, u) {
+        let small = || acts_at_second_order(line.sensitivity, deviation, line.u, u);
+        if acts || !self.is_overestimated(measurand) && small() {
             Sight::SecondOrder
         } else if gone
             && deviation == 0.0

@@ -65,6 +65,18 @@ fn said(folder: &Path, case: &str, recording: &str) -> Vec<(bool, String)> {
         .to_vec()
 }
 
+/// What `simulate` says beside its result.
+fn remarks(folder: &Path, case: &str, recording: &str) -> String {
+    std::fs::write(folder.join("run.csv"), recording).expect("written");
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let output = crate::common::program()
+        .current_dir(folder)
+        .args(["simulate", "case.toml"])
+        .output()
+        .expect("the program runs");
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
 #[test]
 fn extreme_recordings_end_in_an_answer_or_a_reason() {
     let folder = folder("extreme");
@@ -196,21 +208,43 @@ fn noise_that_is_stated_twice_is_told_by_both() {
 #[test]
 fn what_only_a_calibration_uses_is_remarked_on() {
     let folder = folder("disused");
-    std::fs::write(folder.join("run.csv"), recording(|_, _| None)).expect("written");
     let case = CASE.replace(
         "recording = \"run.csv\"",
         "recording = { file = \"run.csv\", together = [\"run\"] }\nseparately = \"run\"",
     );
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-    let output = crate::common::program()
-        .current_dir(&folder)
-        .args(["simulate", "case.toml"])
-        .output()
-        .expect("the program runs");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = remarks(&folder, &case, &recording(|_, _| None));
     for key in ["`together` of the recording", "`separately`"] {
         assert!(said.contains(key), "{said}");
     }
+}
+
+/// Beside two parameters three rows leave one degree of freedom, which any effect would take.
+#[test]
+fn rows_that_cannot_test_a_model_do_not_agree_with_it() {
+    let folder = folder("untested");
+    let good = recording(|_, _| None);
+    let of = |rows: usize| {
+        let text = good.lines().take(rows + 1).collect::<Vec<_>>().join("\n");
+        said(&folder, CASE, &text).swap_remove(0)
+    };
+    let (is_done, text) = of(3);
+    assert!(is_done && text.contains("cannot test the model"), "{text}");
+    assert!(!text.contains("agree"), "{text}");
+    let (_, text) = of(12);
+    assert!(!text.contains("cannot test the model"), "{text}");
+}
+
+#[test]
+fn a_clock_that_goes_back_is_remarked_on() {
+    let folder = folder("backwards");
+    let late = |row: usize, name: &str| (row == 5 && name == "t").then_some("0.05");
+    let text = remarks(&folder, CASE, &recording(late));
+    assert!(
+        text.contains("goes back in 1 of the rows, first in line 7"),
+        "{text}"
+    );
+    let text = remarks(&folder, CASE, &recording(|_, _| None));
+    assert!(!text.contains("goes back"), "{text}");
 }
 
 /// A part that is wrong is told with its mend, by the command that uses it and by those that only read it.

@@ -13,6 +13,8 @@ use super::run::Diagnosis;
 pub enum Conclusion<'d> {
     /// Model and recording agree.
     Agreement,
+    /// Nothing disagrees, and nothing could: the noise is estimated, and any effect would leave no degree of freedom for it.
+    Untested,
     /// The model leaves out named effects, and nothing else.
     LeavesOut {
         /// Effects with one name, or one that is far likelier than the others.
@@ -139,6 +141,9 @@ impl Diagnosis {
         let named = slots.clone().filter(|slot| slot.is_explained());
         let (open, told): (Vec<&Slot>, Vec<&Slot>) = named.partition(|slot| slot.is_open());
         match self.examination.verdict {
+            Verdict::None if self.noise.is_estimated() && self.before.dof <= 1.0 => {
+                return Conclusion::Untested;
+            }
             Verdict::None => return Conclusion::Agreement,
             Verdict::Identified | Verdict::Like | Verdict::Ambiguous => {
                 return Conclusion::LeavesOut { told, open };

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::blocks::blocks;
 use super::case::{Case, Observed, Role, interval};
-use super::catalogue::modifiers::{mean, range};
+use super::catalogue::modifiers::{mean, range, usual};
 use gumption_core::quantity::Unit;
 
 /// The numbers of a case.
@@ -354,19 +354,29 @@ impl<'c> Design<'c> {
         let of = |role: Role| {
             let column = self.case.with_role(role).next()?;
             let numbers = self.case.columns[column].numbers()?;
-            Some(Clock {
-                values: numbers.to_vec(),
-                column: Some(column),
-            })
+            Some((Some(column), numbers.to_vec()))
         };
-        of(Role::Time)
-            .or_else(|| of(Role::Order))
-            .unwrap_or_else(|| Clock {
-                values: (0..self.case.rows)
-                    .map(|row| middle(self.recorded(row)))
-                    .collect(),
-                column: None,
-            })
+        let recorded = of(Role::Time).or_else(|| of(Role::Order));
+        let (column, values) = recorded.unwrap_or_else(|| {
+            let rows = 0..self.case.rows;
+            (None, rows.map(|row| middle(self.recorded(row))).collect())
+        });
+        Clock {
+            interval: self.interval(&values),
+            values,
+            column,
+        }
+    }
+
+    /// The usual distance of successive rows of the blocks: what lies between blocks may have been put together.
+    fn interval(&self, times: &[f64]) -> f64 {
+        let mut is_seen = vec![false; times.len()];
+        for row in self.blocks.iter().flatten() {
+            is_seen[*row] = true;
+        }
+        let pairs = times.windows(2).zip(is_seen.windows(2));
+        let seen = pairs.filter(|(_, seen)| seen[0] && seen[1]);
+        usual(seen.map(|(pair, _)| pair[1] - pair[0])).unwrap_or_else(|| interval(times))
     }
 }
 
@@ -377,6 +387,8 @@ pub struct Clock {
     pub values: Vec<f64>,
     /// The column that it comes from; `None` for the number of the row.
     pub column: Option<usize>,
+    /// Median of the positive differences of successive rows.
+    pub interval: f64,
 }
 
 impl Clock {
@@ -384,10 +396,5 @@ impl Clock {
     pub fn span(&self) -> f64 {
         let (least, most) = range(&self.values);
         (most - least).max(0.0)
-    }
-
-    /// Median of the positive differences of successive rows.
-    pub fn interval(&self) -> f64 {
-        interval(&self.values)
     }
 }

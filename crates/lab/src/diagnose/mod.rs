@@ -52,7 +52,7 @@
 //! | `result`, `improved` | the parameters as the measurands of a budget; the improved case as files |
 //! | `chance` | draws in proportion to weights; random numbers |
 //! | `simulate` | the recording that a case predicts |
-//! | `size` | how much memory a diagnosis takes |
+//! | `size`, `parallel` | how much memory a diagnosis takes; work on several threads |
 //! | `stand_in` | what can stand in for something whose trace is known |
 
 mod accounts;
@@ -89,6 +89,7 @@ mod noise_outputs;
 mod noise_rounding;
 mod noise_scale;
 mod omitted;
+mod parallel;
 mod parts;
 mod plan;
 mod possible;

@@ -118,8 +118,13 @@ impl<'a> Names<'a> {
 
     /// What a slot may be: what does it alone, most probable first, and then in one text what does it together.
     pub(super) fn slot(self, diagnosis: &Diagnosis, slot: &Slot) -> Vec<String> {
+        self.several(diagnosis, &slot.named.iter().collect::<Vec<_>>())
+    }
+
+    /// The same of some of its names.
+    pub(super) fn several(self, diagnosis: &Diagnosis, names: &[&Alternative]) -> Vec<String> {
         let told = |one: &&Alternative| self.told(diagnosis, one) + &self.open(diagnosis, one);
-        let (together, alone): (Vec<_>, Vec<_>) = slot.named.iter().partition(|one| one.jointly);
+        let (together, alone): (Vec<_>, Vec<_>) = names.iter().partition(|one| one.jointly);
         let together: Vec<String> = together.iter().map(told).collect();
         let list = alone.iter().map(told).chain(self.together(&together));
         list.collect()

@@ -7,7 +7,7 @@ use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Conclusion, Diagnosis};
 
 use super::names::Names;
-use super::words::chance;
+use super::words::{chance, is_below_all_shown};
 
 /// The verdict, with what else it may be where noise that wanders stands in it.
 pub(super) fn statement(diagnosis: &Diagnosis, l: Language) -> String {
@@ -51,6 +51,10 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
                 "模型与记录在所声明的范围内一致：记录未显示模型有遗漏。",
             )
             .to_owned(),
+        Conclusion::Untested => {
+            let (observations, unknowns) = (diagnosis.before.observations, diagnosis.unknowns.len());
+            say!("The recording cannot test the model: an effect beside its {unknowns} parameters would leave none of {observations} observations to tell it from noise. More rows would.").in_language(l)
+        }
         Conclusion::LeavesOut { told, open } => left_out(&list(&told), &list(&open), l),
         Conclusion::AndMore { named, tentative } => and_more(&list(&named), &told(&tentative), l),
         Conclusion::Tentative { names, places } => {
@@ -112,14 +116,37 @@ fn slot_name(diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> String {
         let name = names.l.either(&shortened(list, names.l));
         return say!("something that acts like {name}").in_language(names.l);
     }
-    match (list.as_slice(), slot.named.first()) {
-        ([first, others @ ..], Some(leading)) if !others.is_empty() && !slot.is_open() => {
-            let p = chance(leading.probability);
-            let others = others.join(names.l.list_comma());
-            say!("{first} ({p} %; not excluded: {others})").in_language(names.l)
+    match slot.named.as_slice() {
+        [leading, others @ ..] if list.len() > 1 && !slot.is_open() => {
+            let aside = not_excluded(diagnosis, leading, others, names);
+            names.l.with_aside(&list[0], &aside)
         }
         _ => names.l.either(&shortened(list, names.l)),
     }
+}
+
+/// How likely the name is that leads a list, and what else stands on it: by its probability, or because it could have the same
+/// shape, as two of its forms together have, or an alias.
+fn not_excluded(
+    diagnosis: &Diagnosis,
+    leading: &Alternative,
+    others: &[Alternative],
+    names: Names<'_>,
+) -> String {
+    let l = names.l;
+    let (alike, likely): (Vec<&Alternative>, Vec<&Alternative>) =
+        (others.iter()).partition(|one| !one.jointly && is_below_all_shown(one.probability));
+    let list = |some: &[&Alternative]| names.several(diagnosis, some).join(l.list_comma());
+    let mut parts = vec![format!("{} %", chance(leading.probability))];
+    if !likely.is_empty() {
+        let others = list(&likely);
+        parts.push(say!("not excluded: {others}").in_language(l));
+    }
+    if !alike.is_empty() {
+        let others = list(&alike);
+        parts.push(say!("of a shape that can be nearly the same: {others}").in_language(l));
+    }
+    parts.join(l.semicolon())
 }
 
 /// A list that can be read in a sentence: what is further down stands below it, by its probability.

@@ -50,6 +50,11 @@ pub(super) fn chance(p: f64) -> String {
     percent(p)
 }
 
+/// Whether a probability is printed as less than what its digits can show.
+pub(super) fn is_below_all_shown(p: f64) -> bool {
+    p < 0.0005
+}
+
 /// A probability as an equation or inequality.
 pub(super) fn p_is(p: f64) -> String {
     if p < 0.001 {

@@ -108,9 +108,10 @@ pub(super) fn scoped_label(scope: &str, form: &Variation) -> String {
 
 /// Sine and cosine of a phase, each with a size of its own.
 pub(super) fn wave(phase: &[f64], argument: &str) -> Vec<Modifier> {
+    let (sine, cosine) = phase.iter().map(|phase| libm::sincos(*phase)).unzip();
     vec![
-        Modifier::number(map(phase, libm::sin), format!("sin({argument})")),
-        Modifier::number(map(phase, libm::cos), format!("cos({argument})")),
+        Modifier::number(sine, format!("sin({argument})")),
+        Modifier::number(cosine, format!("cos({argument})")),
     ]
 }
 
@@ -212,14 +213,14 @@ pub(super) fn timed(fitted: &FittedModel<'_>, scales: &[f64], terms: Vec<Term>) 
 /// times.
 pub(super) fn time_constants(fitted: &FittedModel<'_>) -> Vec<f64> {
     let blocks = fitted.design.blocks.len().max(2) as f64;
-    let least = (fitted.clock.span() / blocks).max(fitted.clock.interval());
+    let least = (fitted.clock.span() / blocks).max(fitted.clock.interval);
     time_constants_from(fitted, 0.5 * least)
 }
 
 /// The same for what follows an input, which is known within blocks as well: from a fraction of the interval of their pieces on.
 pub(super) fn time_constants_of_input(fitted: &FittedModel<'_>) -> Vec<f64> {
     match fitted.rows() > fitted.design.blocks.len() {
-        true => time_constants_from(fitted, 0.5 * fitted.clock.interval()),
+        true => time_constants_from(fitted, 0.5 * fitted.clock.interval),
         false => time_constants(fitted),
     }
 }

@@ -293,8 +293,14 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
     applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 
+/// Loss along the stem of a probe, for each column that may be the depth of immersion.
+pub(super) fn stems(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let depths = fitted.numeric().into_iter();
+    depths.filter_map(|column| stem(fitted, column)).collect()
+}
+
 /// Loss along the stem of a probe, which dies away with the depth of immersion.
-pub(super) fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let length = fitted.is_like(column, "m") && least >= 0.0 && levels_of(x).len() >= 3;

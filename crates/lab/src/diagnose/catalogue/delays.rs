@@ -11,7 +11,7 @@ use super::{Modifier, Term, Variation};
 pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
     // Between the rows the course may have corners or none.
-    let interval = fitted.clock.interval();
+    let interval = fitted.clock.interval;
     let (law, shortest): (Between, f64) =
         match is_smooth(&fitted.clock.values, fitted.numbers(column)) {
             true => (smoothly_delayed, interval / 4.0),
@@ -44,7 +44,7 @@ fn longer(
 ) -> Vec<(f64, Term)> {
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
-    let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
+    let longest = (20.0 * fitted.clock.interval).min(fitted.clock.span() / 20.0);
     let sizes = grid(shortest, longest, 1.6, 8);
     let late = |by: f64| {
         let then = between(t, x, by);

@@ -117,5 +117,5 @@ fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variati
 
 /// What is quicker than the rows follow one another is a power of the signal.
 fn scales(fitted: &FittedModel<'_>) -> Vec<f64> {
-    time_constants_from(fitted, fitted.clock.interval())
+    time_constants_from(fitted, fitted.clock.interval)
 }

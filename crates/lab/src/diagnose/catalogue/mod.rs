@@ -83,6 +83,7 @@ pub use fitted::{FittedModel, Node, signal};
 
 use super::case::Case;
 use super::evidence;
+use super::parallel::side_by_side;
 use gumption_core::quantity::{Unit, to_digits};
 
 /// What the placeholders of an effect's texts stand for.
@@ -426,26 +427,31 @@ impl Variation {
     }
 }
 
+/// What makes the candidates of one kind each.
+const CHAPTERS: [fn(&FittedModel<'_>) -> Vec<Cell>; 17] = [
+    response::cells,
+    inputs::cells,
+    |fitted| Vec::from_iter(axes::crossed(fitted)),
+    fields::cells,
+    conditions::cells,
+    zero::cells,
+    time::cells,
+    waves::cells,
+    levels::cells,
+    parameters::cells,
+    angles::cells,
+    rows::cells,
+    readout::cells,
+    bits::cells,
+    conditions::stems,
+    heating::cells,
+    user::cells,
+];
+
 /// All candidates of the catalogue that this case can have, without those that the user excludes.
 pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let mut cells = response::cells(fitted);
-    cells.extend(inputs::cells(fitted));
-    cells.extend(axes::crossed(fitted));
-    cells.extend(fields::cells(fitted));
-    cells.extend(conditions::cells(fitted));
-    cells.extend(zero::cells(fitted));
-    cells.extend(time::cells(fitted));
-    cells.extend(waves::cells(fitted));
-    cells.extend(levels::cells(fitted));
-    cells.extend(parameters::cells(fitted));
-    cells.extend(angles::cells(fitted));
-    cells.extend(rows::cells(fitted));
-    cells.extend(readout::cells(fitted));
-    cells.extend(bits::cells(fitted));
-    let depths = fitted.numeric().into_iter();
-    cells.extend(depths.filter_map(|column| conditions::stem(fitted, column)));
-    cells.extend(heating::cells(fitted));
-    cells.extend(user::cells(fitted));
+    let chapters = side_by_side(CHAPTERS.len(), |at| CHAPTERS[at](fitted));
+    let mut cells: Vec<Cell> = chapters.into_iter().flatten().collect();
     if let Some(norm) = norm::Norm::of(fitted) {
         norm.spread(fitted, &mut cells);
     }

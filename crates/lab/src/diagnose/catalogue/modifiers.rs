@@ -34,11 +34,24 @@ pub fn successive(
     most: usize,
     together: impl Fn(usize, usize) -> bool,
 ) -> Vec<Range<usize>> {
+    in_succession(rows, |_| most, together)
+}
+
+/// The same with a limit that depends on the first of them.
+pub fn in_succession(
+    rows: usize,
+    most: impl Fn(usize) -> usize,
+    together: impl Fn(usize, usize) -> bool,
+) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
+    let mut room = 0;
     for row in 0..rows {
         match found.last_mut() {
-            Some(own) if own.len() < most && together(row - 1, row) => own.end = row + 1,
-            _ => found.push(row..row + 1),
+            Some(own) if own.len() < room && together(row - 1, row) => own.end = row + 1,
+            _ => {
+                room = most(row);
+                found.push(row..row + 1);
+            }
         }
     }
     found

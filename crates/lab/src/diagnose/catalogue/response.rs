@@ -11,9 +11,28 @@ use super::fitted::{FittedModel, Node};
 use super::modifiers::{creeps, figure, five_digits, largest, levels_of, map, map2, mean, range};
 use super::norm::Norm;
 use super::sharp::{beats, best_pair, sharpened, sharpened_together, size_of};
-use super::{Cell, EffectId, Modifier, Term, Variation};
+use super::{
+    Cell, EffectId, Modifier, Term, Variation, excursions, exponentials, history, limits, ringing,
+    slewing,
+};
 use crate::diagnose::case::Role;
+use crate::diagnose::parallel::side_by_side;
 use gumption_core::quantity::to_digits;
+
+/// What makes the cells of a column that the model uses, of one kind each.
+const ALONG: [fn(&FittedModel<'_>, usize) -> Vec<Cell>; 11] = [
+    powers,
+    |fitted, column| Vec::from_iter(background(fitted, column)),
+    |fitted, column| Vec::from_iter(exponent(fitted, column)),
+    |fitted, column| Vec::from_iter(exponentials::cell(fitted, column)),
+    |fitted, column| Vec::from_iter(excursions::cell(fitted, column)),
+    |fitted, column| Vec::from_iter(inverse(fitted, column)),
+    limits::cells,
+    dynamics,
+    |fitted, column| Vec::from_iter(ringing::ringing(fitted, column)),
+    |fitted, column| Vec::from_iter(slewing::slewing(fitted, column)),
+    history::cells,
+];
 
 /// Cells of the columns that the model uses.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -28,20 +47,12 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         used.iter().partition(|column| fitted.is_direct(**column));
     let mut cells = aside(fitted, &factors);
     cells.extend(factors.iter().flat_map(|c| bends(fitted, *c)));
-    for column in &direct {
-        cells.extend(powers(fitted, *column));
-        cells.extend(background(fitted, *column));
-        cells.extend(exponent(fitted, *column));
-        cells.extend(super::exponentials::cell(fitted, *column));
-        cells.extend(super::excursions::cell(fitted, *column));
-        cells.extend(inverse(fitted, *column));
-        cells.extend(super::limits::cells(fitted, *column));
-        cells.extend(dynamics(fitted, *column));
-        cells.extend(super::ringing::ringing(fitted, *column));
-        cells.extend(super::slewing::slewing(fitted, *column));
-        cells.extend(super::history::cells(fitted, *column));
-    }
-    cells.extend(super::limits::of_outputs(fitted, &direct));
+    let kinds = ALONG.len();
+    let along = side_by_side(kinds * direct.len(), |at| {
+        ALONG[at % kinds](fitted, direct[at / kinds])
+    });
+    cells.extend(along.into_iter().flatten());
+    cells.extend(limits::of_outputs(fitted, &direct));
     for (at, x) in direct.iter().enumerate() {
         for z in &direct[at + 1..] {
             cells.push(interaction(fitted, *x, *z));

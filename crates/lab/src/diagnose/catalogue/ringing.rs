@@ -26,7 +26,7 @@ pub(super) fn ringing(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
         return None;
     }
     let clock = &fitted.clock;
-    let periods = grid(ROWS * clock.interval(), clock.span() / 3.0, FINE, 30);
+    let periods = grid(ROWS * clock.interval, clock.span() / 3.0, FINE, 30);
     let rung = |period: f64, damping: f64| rung(fitted, column, Swing { period, damping });
     let all = DAMPING.iter().flat_map(|damping| {
         let swings = periods.iter();

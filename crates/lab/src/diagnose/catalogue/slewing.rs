@@ -21,7 +21,7 @@ pub(super) fn slewing(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     // A step that is over at the next row shows no rate, one that lasts for a third of the recording is a drift.
     let rates = grid(
         3.0 * largest / fitted.clock.span(),
-        largest / fitted.clock.interval(),
+        largest / fitted.clock.interval,
         FINE,
         RATES,
     );

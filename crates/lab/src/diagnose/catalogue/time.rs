@@ -41,7 +41,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             cells.push(on_node(fitted, *id, &along, *node, forms.clone()));
         }
     };
-    let least = (span * 3e-3).max(fitted.clock.interval());
+    let least = (span * 3e-3).max(fitted.clock.interval);
     let scales = grid(least, span / 3.0, 2.2, 7);
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
     let is_recorded = fitted.clock.column.is_some();

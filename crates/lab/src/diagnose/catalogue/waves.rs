@@ -237,7 +237,7 @@ fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
     let first = x[0];
     let wave = |x: &f64| {
         let phase = TAU * frequency * (x - first);
-        (libm::sin(phase), libm::cos(phase))
+        libm::sincos(phase)
     };
     let waves: Vec<(f64, f64)> = x.iter().map(wave).collect();
     let sum = |f: &dyn Fn(&(f64, f64)) -> f64| waves.iter().map(f).sum::<f64>();

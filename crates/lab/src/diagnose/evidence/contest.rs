@@ -14,7 +14,7 @@ use super::baseline::Baseline;
 use super::closed_form::{Scale, maximum};
 use super::detection::Panel;
 use super::noise::{Covariance, Factor};
-use super::null::{Laws, Simulated, side_by_side};
+use super::null::{Laws, Simulated};
 use super::pairs::Singles;
 use super::question::{Atom, Candidate, Chance, Question, Settings};
 use super::refusal::Refusal;
@@ -22,6 +22,7 @@ use super::sequential;
 use super::space::{Frame, Space};
 use super::tails;
 use crate::diagnose::chance::in_proportion;
+use crate::diagnose::parallel::side_by_side;
 
 /// Simulated recordings behind the probability, at most: at 1 % its standard error is 0.3 %.
 const DRAWS: usize = 1024;

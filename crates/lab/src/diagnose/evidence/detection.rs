@@ -10,12 +10,13 @@
 use std::collections::BTreeMap;
 
 use super::departure;
-use super::null::{Recordings, Simulated, side_by_side};
+use super::null::{Recordings, Simulated};
 use super::pairs::Pairs;
 use super::question::Kind;
 use super::remainders::Remainders;
 use super::sequential::probability;
 use super::space::{Frame, Reach, Space};
+use crate::diagnose::parallel::side_by_side;
 
 /// What the test says.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,9 @@ use nalgebra::{DMatrix, DVector};
 use super::baseline::Baseline;
 use super::closed_form::Scale;
 use super::directions::INVISIBLE;
-use super::null::{Laws, Null, side_by_side};
+use super::null::{Laws, Null};
 use super::question::Settings;
+use crate::diagnose::parallel::side_by_side;
 
 /// Stage of the random numbers, apart from those of the gate.
 const STAGE: u64 = 0x1_0000_0001;

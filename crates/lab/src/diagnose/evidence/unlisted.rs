@@ -15,10 +15,11 @@ use super::departure::{self, FORM};
 use super::detection::combined;
 use super::directions::{joined, without};
 use super::fit::estimate;
-use super::null::{Simulated, side_by_side};
+use super::null::Simulated;
 use super::question::Kind;
 use super::remainders::Remainders;
 use super::space::{Frame, Residual, Space, smooth};
+use crate::diagnose::parallel::side_by_side;
 
 /// Simulated recordings behind a probability.
 const DRAWS: usize = 2048;

@@ -15,10 +15,11 @@ use gumption_lanes::LANES;
 use super::baseline::factors;
 use super::contest::Course;
 use super::noise::{Factor, Noise};
-use super::null::{Laws, Null, side_by_side};
+use super::null::{Laws, Null};
 use super::refusal::Refusal;
 use super::sequential::is_settled;
 use super::tails::in_order_of;
+use crate::diagnose::parallel::side_by_side;
 
 /// What rounding makes of the kurtosis of the same errors in another order.
 const ROUNDING: f64 = 1e-9;

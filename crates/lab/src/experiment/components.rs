@@ -14,7 +14,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::quantities::Quantities;
-use gumption_gum::budget::{Evaluation, Group, Owner};
+use gumption_gum::budget::{Evaluation, Follows, Group, Owner};
 
 /// Every component as an error, correlated ones as sums of independent errors; `inputs` are the names of
 /// the inputs that the equations see.
@@ -43,7 +43,7 @@ pub(crate) fn of(
         .iter()
         .enumerate()
         .filter(|(index, one)| !one.acts.is_empty() && !is_correlated(*index))
-        .map(|(index, one)| one.doubt(stated, index))
+        .flat_map(|(index, one)| in_parts(one.doubt(stated, index)))
         .collect();
     for group in &stated.groups {
         match factored(stated, group, &found) {
@@ -134,6 +134,24 @@ impl Found {
             certificate: component.certificate.clone(),
         }
     }
+}
+
+/// An error that readings share and of which one part is in proportion to them and the rest is not, as of limits of so much of the
+/// reading and so much of the range, as two independent ones of one name: that of the gain has the sign of each reading, that of
+/// the zero has not. An error that each reading has by itself has no sign, and is one.
+fn in_parts(doubt: Doubt) -> Vec<Doubt> {
+    let is_mixed = |act: &Act| {
+        let rule = act.growth.map(|growth| growth.rule);
+        matches!(rule, Some(Follows::Proportion { share }) if share > 0.0 && share < 1.0)
+    };
+    if doubt.scope == Scope::Each || !doubt.acts.iter().any(is_mixed) {
+        return vec![doubt];
+    }
+    let with = |part: fn(Act) -> Act| Doubt {
+        acts: doubt.acts.iter().cloned().map(part).collect(),
+        ..doubt.clone()
+    };
+    vec![with(Act::of_gain), with(Act::of_zero)]
 }
 
 /// Correlated errors as sums of independent normal ones, by the Cholesky factor of their correlation

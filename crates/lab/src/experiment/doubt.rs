@@ -94,6 +94,39 @@ impl Act {
     }
 }
 
+impl Act {
+    /// The part that is in proportion to the readings.
+    pub(super) fn of_gain(self) -> Act {
+        let share = self.in_proportion();
+        let growth = self.growth.map(|growth| Growth {
+            rule: Follows::Proportion { share: 1.0 },
+            ..growth
+        });
+        Act {
+            coefficient: share * self.coefficient,
+            growth,
+            ..self
+        }
+    }
+
+    /// The rest.
+    pub(super) fn of_zero(self) -> Act {
+        Act {
+            coefficient: (1.0 - self.in_proportion()) * self.coefficient,
+            growth: self.growth.filter(|growth| growth.rule == Follows::Root),
+            ..self
+        }
+    }
+
+    /// How much of it is in proportion to the readings.
+    fn in_proportion(&self) -> f64 {
+        match self.growth.map(|growth| growth.rule) {
+            Some(Follows::Proportion { share }) => share,
+            Some(Follows::Root) | None => 0.0,
+        }
+    }
+}
+
 /// An error that is a part of what is read, as of an accuracy specification.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -106,7 +139,7 @@ pub struct Growth {
 
 impl Growth {
     /// The factor of the error at a reading; none acts on one that is missing. A gain that is wrong for all readings is wrong with
-    /// the sign of each; limits that have a constant part as well have none.
+    /// the sign of each; limits of one reading that have a constant part as well have none.
     pub fn factor(self, reading: f64) -> f64 {
         match self.rule {
             _ if !reading.is_finite() => 0.0,

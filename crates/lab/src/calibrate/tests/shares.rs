@@ -65,6 +65,25 @@ fn a_specification_grows_with_the_reading_from_its_constant_part() {
     );
 }
 
+/// Limits of the reading and of the range that all readings share are those of a gain and of a zero.
+#[test]
+fn a_specification_that_all_readings_share_is_a_gain_and_a_zero() {
+    let stated = "[reading.U]\nspecification = { reading = \"1 %\", range = \"0.1 %\", span = 20 }\nscope = \"common\"\n";
+    // What is added to all readings does not turn a line about the origin: the sum of ω is 0.
+    near(u_of_slope(stated), 0.02 / 3.0_f64.sqrt(), 1e-12);
+    let one_side = campaign(
+        &format!("{LINE}{stated}"),
+        "omega [deg/s],U [mV]\n1,2\n2,4\n",
+    );
+    let found = calibrate(&one_side).expect("coefficients");
+    let of_zero = 0.02 * 3.0 / 5.0;
+    near(
+        found.figures.coefficients[0].u,
+        0.02_f64.hypot(of_zero) / 3.0_f64.sqrt(),
+        1e-12,
+    );
+}
+
 #[test]
 fn a_gain_that_all_readings_share_goes_to_the_slope_in_full() {
     near(

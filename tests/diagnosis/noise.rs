@@ -456,3 +456,54 @@ fn a_second_effect_is_held_against_noise_beside_the_first() {
         }
     }
 }
+
+/// Numbers that were computed, or a good gauge at round values: what is left is the rounding of doubles, which has a form as well.
+#[test]
+fn a_recording_that_the_model_meets_exactly_shows_nothing() {
+    let of = |read: fn(f64) -> String| {
+        let row = |row: u32| {
+            let x = f64::from(5 * (row * 7 % 33));
+            format!("{row},{x},{}\n", read(x))
+        };
+        "n,x [mm],y [mm]\n".to_owned() + &(0..33).map(row).collect::<String>()
+    };
+    let case =
+        "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nn = \"order\"\n";
+    for (name, rows) in [
+        ("exact-line", of(|x| format!("{}", 2.0 * x + 1.0))),
+        ("exact-gauge", of(|x| format!("{x:.3}"))),
+        (
+            "exact-decimals",
+            of(|x| format!("{:.4}", 0.004 + 0.004 * x)),
+        ),
+    ] {
+        let found = diagnosed_with(name, &rows, case);
+        assert_eq!(found["verdict"], "none", "{found}");
+        let statement = found["statement"].as_str().unwrap_or_default();
+        assert!(statement.contains("exactly"), "{statement}");
+    }
+}
+
+/// A frequency sensor has its constant as a factor: 40 kHz at rest, and 1 kHz of span with which its noise grows.
+#[test]
+fn noise_may_grow_about_what_the_model_gives_at_rest() {
+    let alarm = |seed: &u64| {
+        let mut noise = Noise(*seed);
+        let mut rows = "p [MPa],f [Hz],t [min]\n".to_owned();
+        for row in 0..96 {
+            let p = 5.0 * f64::from(row * 7 % 12);
+            let f = 40_000.0 * (1.0 + 4.2e-4 * p);
+            let shown = f + 2e-4 * (f - 40_000.0) * noise.normal() + 0.003 * noise.normal();
+            let _ = writeln!(rows, "{p},{shown:.5},{}", 2 * row);
+        }
+        let case = "equations = \"f = f0*(1 + b*p)\"\n[columns]\nf = \"output\"\np = \"stimulus\"\nt = \"time\"\n[parameter]\nf0 = { start = 40000 }\nb = { start = 4e-4 }\n";
+        let found = diagnosed_with("noise-of-a-span", &rows, case);
+        assert!(
+            origin(&found).contains("where nothing is applied"),
+            "{}",
+            origin(&found)
+        );
+        found["verdict"] != "none"
+    };
+    assert_eq!((91..97).filter(alarm).count(), 0);
+}

@@ -13,6 +13,8 @@ use super::run::Diagnosis;
 pub enum Conclusion<'d> {
     /// Model and recording agree.
     Agreement,
+    /// The model meets every reading, to the rounding of numbers.
+    Exact,
     /// Nothing disagrees, and nothing could: the noise is estimated, and any effect would leave no degree of freedom for it.
     Untested,
     /// The model leaves out named effects, and nothing else.
@@ -141,6 +143,7 @@ impl Diagnosis {
         let named = slots.clone().filter(|slot| slot.is_explained());
         let (open, told): (Vec<&Slot>, Vec<&Slot>) = named.partition(|slot| slot.is_open());
         match self.examination.verdict {
+            Verdict::None if self.noise.is_of_arithmetic() => return Conclusion::Exact,
             Verdict::None if self.noise.is_estimated() && self.before.dof <= 1.0 => {
                 return Conclusion::Untested;
             }

@@ -40,7 +40,8 @@ impl Quality {
     pub fn quieter(&self, claimed: &Claimed) -> Option<f64> {
         /// One recording in a thousand is told without reason.
         const RARE: f64 = 0.001;
-        if claimed.is_estimated() || claimed.correlated.is_some() || self.dof < 1.0 {
+        let is_claimed = !claimed.is_estimated() && !claimed.is_of_arithmetic();
+        if !is_claimed || claimed.correlated.is_some() || self.dof < 1.0 {
             return None;
         }
         let p = match claimed.dof.is_finite() {

@@ -277,6 +277,11 @@ impl Claimed {
         responses.any(|(response, step)| response.name == output && step.is_some())
     }
 
+    /// Whether there is none but the rounding of numbers in the computer.
+    pub fn is_of_arithmetic(&self) -> bool {
+        self.origin == Origin::Arithmetic
+    }
+
     /// Whether the size of the noise follows from the residuals alone.
     pub fn is_estimated(&self) -> bool {
         self.dof == 0.0

@@ -40,6 +40,8 @@ pub enum Quantity {
     Reading,
     /// The reading without the constant terms of the model, y − y₀.
     Signal,
+    /// The reading without what the model gives where nothing is applied, y − y(0), of a model whose constant is a factor.
+    Applied,
 }
 
 /// Noise of one response that grows: u² = a² + (b·y)².

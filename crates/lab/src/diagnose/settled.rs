@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Origin, Role};
 use super::catalogue::modifiers::largest;
-use super::catalogue::signal;
+use super::catalogue::{applied, signal};
 use super::design::{Design, Unknown};
 use super::evidence;
 use super::fit::{self, Fit, NoFit, Weights};
@@ -110,6 +110,9 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
 /// The noise that a model leaves, where it grows with the reading or differs from label to label.
 pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut claimed = estimated(design, fit);
+    if !claimed.is_estimated() {
+        return claimed;
+    }
     let unknowns = paid_for(design, fit);
     let blocks = design.blocks.len();
     let mut draws = vec![claimed.u.clone(); DRAWS];
@@ -122,17 +125,17 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         let even = DVector::from_element(blocks, 1.0);
         let scales = by_label.as_ref().map_or(&even, |labels| &labels.best);
         let errors = own.component_div(scales);
-        let readings = [
-            (Quantity::Reading, values),
-            (
-                Quantity::Signal,
-                design.reduced(&signal(design, fit, response)),
-            ),
-        ];
+        let mut readings = vec![(Quantity::Reading, values)];
+        // What effects add to a constant is no signal.
+        if has_stimulus(design.case) {
+            let signal = design.reduced(&signal(design, fit, response));
+            readings.push((Quantity::Signal, signal));
+            let applied = applied(design, fit, response);
+            let applied = applied.map(|applied| (Quantity::Applied, design.reduced(&applied)));
+            readings.extend(applied);
+        }
         let grown = |(_, y): &(_, Vec<f64>)| noise_growth::estimate(design, response, y, &errors);
         let each = readings.iter().map(|reading| (reading, grown(reading)));
-        // What effects add to a constant is no signal.
-        let each = each.take(if has_stimulus(design.case) { 2 } else { 1 });
         let gain = |likely: &Option<Likely>| likely.as_ref().map_or(0.0, |likely| likely.gain);
         // Of equals the first.
         let ((with, values), likely) = each
@@ -244,6 +247,9 @@ fn hat_trace(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<f64> {
 
 /// One standard uncertainty for each response, from the residuals.
 fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
+    if let Some(exact) = exact(design, fit) {
+        return exact;
+    }
     let mut u = each_response(design, fit, paid_for(design, fit));
     let blocks = design.blocks.len();
     let counts = counts(design.case);
@@ -255,6 +261,22 @@ fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
         }
     }
     Claimed::plain(u, 0.0, Origin::Estimated)
+}
+
+/// The noise of a recording of which the model meets every reading: nothing but the rounding of doubles, of the reading and of each
+/// term of the model, which is rounded as a product and in a sum.
+fn exact(design: &Design<'_>, fit: &Fit) -> Option<Claimed> {
+    let blocks = design.blocks.len();
+    let responses = 0..design.case.responses.len();
+    let rounded = (1 + design.unknowns.len()) as f64;
+    let of = |response: usize| {
+        let rounding = rounded * f64::EPSILON * largest(&design.observed(response));
+        let own = fit.residuals.rows(response * blocks, blocks);
+        (rounding > 0.0 && own.amax() <= rounding).then_some(rounding)
+    };
+    let each: Vec<f64> = responses.map(of).collect::<Option<_>>()?;
+    let u = DVector::from_fn(design.observations(), |at, _| each[design.place(at).0]);
+    Some(Claimed::plain(u, f64::INFINITY, Origin::Arithmetic))
 }
 
 /// The same in each of its rows, where the residuals pay for so many unknowns.

@@ -179,10 +179,11 @@ form! {
 
     /// Noise that grows with the reading y: u² = a² + (b·y)².
     GrowthForm<'a> of (growth: &'a Growth) {
-        /// What y is: "reading", or "signal", the reading without the constant terms of the model.
+        /// What y is: "reading", or "signal", the reading without the constant terms of the model, or "applied", without what that gives where nothing is applied.
         with: &'static str = match growth.with {
             Quantity::Reading => "reading",
             Quantity::Signal => "signal",
+            Quantity::Applied => "applied",
         },
         /// a.
         constant: Number = Number(growth.constant),

@@ -42,6 +42,9 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
                 + &growth(claimed, l)
                 + &by_label(claimed, l)
         }
+        Origin::Arithmetic => {
+            say!("none: the model meets every reading to the rounding of numbers").in_language(l)
+        }
         Origin::Case => l.pick(
             "as stated in the case".to_owned(),
             "由实验文件给出".to_owned(),
@@ -198,7 +201,7 @@ fn growth(claimed: &Claimed, l: Language) -> String {
             let proportional = significant(100.0 * growth.proportional, 2);
             let y = match growth.with {
                 Quantity::Reading => "y",
-                Quantity::Signal => "(y − y₀)",
+                Quantity::Signal | Quantity::Applied => "(y − y₀)",
             };
             match growth.unit.as_str() {
                 "" | "1" => format!("u² = {constant}² + ({proportional} % · {y})²"),
@@ -210,12 +213,18 @@ fn growth(claimed: &Claimed, l: Language) -> String {
         return String::new();
     }
     let grows = grows.join("; ");
-    let about_zero = |growth: &Growth| growth.with == Quantity::Signal;
-    match claimed.growth.iter().flatten().any(about_zero) {
-        true => {
+    let of = |with: Quantity| {
+        let mut all = claimed.growth.iter().flatten();
+        all.any(|growth: &Growth| growth.with == with)
+    };
+    match (of(Quantity::Signal), of(Quantity::Applied)) {
+        (true, _) => {
             say!(", growing with the reading: {grows}, with the constant terms y₀ of the model")
         }
-        false => say!(", growing with the reading: {grows}"),
+        (false, true) => {
+            say!(", growing with the reading: {grows}, with y₀ as it is where nothing is applied")
+        }
+        (false, false) => say!(", growing with the reading: {grows}"),
     }
     .in_language(l)
 }

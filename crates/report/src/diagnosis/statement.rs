@@ -51,11 +51,18 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
                 "模型与记录在所声明的范围内一致：记录未显示模型有遗漏。",
             )
             .to_owned(),
+        Conclusion::Exact => say!("The model meets every reading exactly: nothing is left out, and there is no noise that it could be told from. Readings of an instrument scatter; were these computed?").in_language(l),
         Conclusion::Untested => {
             let (observations, unknowns) = (diagnosis.before.observations, diagnosis.unknowns.len());
             say!("The recording cannot test the model: an effect beside its {unknowns} parameters would leave none of {observations} observations to tell it from noise. More rows would.").in_language(l)
         }
-        Conclusion::LeavesOut { told, open } => left_out(&list(&told), &list(&open), l),
+        Conclusion::LeavesOut { told, open } => {
+            let verdict = left_out(&list(&told), &list(&open), l);
+            match diagnosis.noise.wanders() {
+                true => say!("{verdict} What is left wanders from row to row, as something else would that is left out and changes with time.").in_language(l),
+                false => verdict,
+            }
+        }
         Conclusion::AndMore { named, tentative } => and_more(&list(&named), &told(&tentative), l),
         Conclusion::Tentative { names, places } => {
             let names = told(&names);

@@ -22,6 +22,8 @@ pub enum Origin {
     Unknown,
     /// The residuals; only the ratios between observations are claimed.
     Estimated,
+    /// The rounding of numbers in the computer: the model meets every reading.
+    Arithmetic,
     /// The case.
     Case,
     /// A column of the recording.

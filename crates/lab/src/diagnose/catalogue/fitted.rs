@@ -493,6 +493,35 @@ pub fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
     signal
 }
 
+/// The model less what it gives where nothing is applied, where a factor stands for the constant that other models add, as in
+/// `f0*(1 + b*p)`; `None` where zero is no value that stimuli can have, or gives nothing else than the model.
+pub fn applied(design: &Design<'_>, fit: &Fit, response: usize) -> Option<Vec<f64>> {
+    let case = design.case;
+    if !constant_terms(design, fit, response).is_empty() {
+        return None;
+    }
+    let used = case.equations.uses(response);
+    let first = case.parameters.len();
+    let stimuli = case.with_role(Role::Stimulus);
+    let stimuli: Vec<usize> = stimuli.filter(|c| used.contains(&(first + c))).collect();
+    if stimuli.is_empty() || stimuli.iter().any(|c| case.columns[*c].unit.is_point()) {
+        return None;
+    }
+    let without = |row: usize| {
+        let mut symbols = design.symbols(row, &fit.unknowns);
+        stimuli
+            .iter()
+            .for_each(|column| symbols[first + column] = 0.0);
+        case.equations.value(response, &symbols)
+    };
+    let values = &fit.linear.values[response];
+    let all: Vec<f64> = (values.iter().enumerate())
+        .map(|(row, value)| value - without(row))
+        .collect();
+    let is_another = all.iter().zip(values).any(|(own, value)| own != value);
+    (is_another && all.iter().all(|own| own.is_finite())).then_some(all)
+}
+
 /// Parameters that are added as they stand. Values of specimens, one for each label, are no zero where nothing else varies:
 /// they are what is measured, and a scale multiplies them.
 fn constant_terms(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<usize> {

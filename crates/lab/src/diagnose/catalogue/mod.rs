@@ -79,7 +79,7 @@ use nalgebra::{DMatrix, DVector};
 pub use by_label::{closer_by_label, may_split, under_one_label};
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::{Finer, Forms};
-pub use fitted::{FittedModel, Node, signal};
+pub use fitted::{FittedModel, Node, applied, signal};
 
 use super::case::Case;
 use super::evidence;

@@ -18,7 +18,7 @@ use super::unlisted::Restated;
 
 /// At most this many effects at once.
 const EFFECTS: usize = 4;
-/// Sets of effects that are extended at each level.
+/// Sets of effects that are extended at each level: so many of the best, and of the best of different causes.
 const BEAM: usize = 10;
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
 /// although nothing stands out beside the single effect.
@@ -161,7 +161,7 @@ fn extend(space: &Space, beam: &[Visited], reach: Reach, search: &mut Search) ->
 fn one_more(space: &Space, beam: &[Visited], reach: Reach) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
-    let best = beam.iter().take(BEAM);
+    let best = leading(space, beam).into_iter();
     for frame in best.filter_map(|set| space.frame(&set.named)) {
         let beside = Remainders::new(space, &frame);
         let observed = beside.observed();
@@ -187,6 +187,24 @@ fn one_more(space: &Space, beam: &[Visited], reach: Reach) -> Vec<Visited> {
     }
     next.sort_by(|a, b| by_score(&b, &a));
     next
+}
+
+/// The best sets of a beam, and the best of each further set of causes: the variants of one effect that stands for two others may be
+/// all of the first.
+fn leading<'b>(space: &Space, beam: &'b [Visited]) -> Vec<&'b Visited> {
+    let causes = |set: &Visited| -> BTreeSet<usize> {
+        let candidates = set.named.iter().map(|block| space.blocks[*block].candidate);
+        candidates
+            .map(|one| space.question.candidates[one].cause)
+            .collect()
+    };
+    let mut seen = BTreeSet::new();
+    let ranked = beam.iter().enumerate();
+    let leads = ranked.filter(|(rank, set)| {
+        let is_new = seen.insert(causes(set));
+        *rank < BEAM || (is_new && seen.len() <= BEAM)
+    });
+    leads.map(|(_, set)| set).collect()
 }
 
 /// Adds sets to a beam that are not in it.

@@ -1,6 +1,6 @@
 //! Effects that were found, with sizes that differ from one label to another.
 
-use super::{Answer, BEST, Inquiry};
+use super::{Answer, BEST, Inquiry, OF_NOISE};
 use crate::diagnose::candidates::Candidates;
 use crate::diagnose::catalogue::{
     Finer, FittedModel, Forms, closer_by_label, may_split, under_one_label,
@@ -8,8 +8,45 @@ use crate::diagnose::catalogue::{
 use crate::diagnose::confirm::{self, Quality};
 use crate::diagnose::evidence;
 use crate::diagnose::failure::Failure;
+use crate::diagnose::noise::Claimed;
 
 impl<'i> Inquiry<'i> {
+    /// Noise that differs from label to label may be an effect that acts under one of them, or has another size under each; and so may a
+    /// scale that wanders, beside which nothing is found. What is found stands instead if it stands beside such noise, among all effects
+    /// that may do so.
+    pub(super) fn look_under_labels(&mut self, starts: Vec<Claimed>) -> Result<(), Failure> {
+        let differs = self.answer.claimed.by_label.iter().any(Option::is_some);
+        let wanders = self.found_nothing() && self.scale_by_chance.is_some();
+        if !(differs || wanders) || !may_split(&self.candidates.fitted) {
+            return Ok(());
+        }
+        let mut forms = Forms::default();
+        self.candidates
+            .cells
+            .iter()
+            .for_each(|cell| forms.add(cell));
+        let fitted = FittedModel::new(self.declared.seen, self.fit).refined(Finer::by_label(forms));
+        let under = Candidates::new(fitted, &starts[0], self.declared.white);
+        let candidates = std::mem::replace(&mut self.candidates, under);
+        let answer = self.answer.clone();
+        let settings = self.settings.clone();
+        let if_independent = self.if_independent.take();
+        // A test of its own.
+        self.settings.alpha *= OF_NOISE;
+        self.settings.by_noise.clear();
+        self.answer = self.asked(starts[0].clone(), 0.7, 0.7)?;
+        self.begin(starts)?;
+        self.settings.alpha = settings.alpha;
+        let finds_more = self.answer.found() > answer.found();
+        if !finds_more || self.answer.log_posterior() < answer.log_posterior() {
+            self.candidates = candidates;
+            self.answer = answer;
+            self.settings = settings;
+            self.if_independent = if_independent;
+        }
+        Ok(())
+    }
+
     /// Sizes by label of the effects that were found. They may take the place of what was found, and do not add to it: of how many
     /// effects they were taken no test knows.
     pub(super) fn split_by_label(&mut self) -> Result<(), Failure> {

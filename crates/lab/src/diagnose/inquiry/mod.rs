@@ -105,6 +105,10 @@ impl<'i> Inquiry<'i> {
         let fitted = FittedModel::new(design, fit);
         let mut candidates = Candidates::new(fitted, &claimed, declared.white);
         let claimed = of_each_output(&candidates, claimed, &settings)?;
+        if claimed.is_of_arithmetic() {
+            // What numbers are rounded by has a form as well, and no physics.
+            candidates.retain(|_, _| false);
+        }
         let part = part(progress, 0.0, 0.4);
         let answer = ask(&mut candidates, claimed.clone(), &settings, &part)?;
         // What the model leaves out may look like noise that grows.
@@ -114,7 +118,7 @@ impl<'i> Inquiry<'i> {
         let is_open = claimed.is_estimated() || !in_common.is_empty();
         let courses = Courses::of(fitted)
             .or_else(|| is_open.then(|| Courses::white(design.observations())))
-            .filter(|_| claimed.correlated.is_none());
+            .filter(|_| claimed.correlated.is_none() && !claimed.is_of_arithmetic());
         let scales = Scales::of(fitted).zip(courses.as_ref());
         let of_scale = match scales.filter(|_| claimed.is_estimated() && claimed.rounding.is_none())
         {
@@ -145,7 +149,9 @@ impl<'i> Inquiry<'i> {
         let rounded = claimed.with_rounding(declared.design, declared.fit, alpha);
         let rounded = rounded.filter(|_| !inquiry.found_nothing());
         let starts = [claimed].into_iter().chain(plain).chain(rounded);
-        inquiry.begin(starts.collect())?;
+        let starts: Vec<Claimed> = starts.collect();
+        inquiry.begin(starts.clone())?;
+        inquiry.look_under_labels(starts)?;
         inquiry.linearise_again()?;
         inquiry.split_by_label()?;
         inquiry.sharpen()?;

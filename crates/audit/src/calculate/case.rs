@@ -5,7 +5,7 @@ use gumption_fault::Said;
 
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE, Row, Stated};
 use crate::printed::Printed;
-use crate::read::{FIXED, names_level, probability_of_factor, unusual_level, usual_levels};
+use crate::read::{FIXED, probability_of_factor, states_usual_level, unusual_level, usual_levels};
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report, t};
@@ -205,8 +205,7 @@ fn usual_factors(claimed: &Claimed) -> Vec<Factor> {
 fn claims_too_much_of_two(claimed: &Claimed) -> bool {
     let nu = claimed.footer.nu_eff.as_ref();
     let is_few = nu.is_some_and(|nu| nu.value + nu.half < FEW_DEGREES);
-    let words = &claimed.words;
-    is_few && [0.95, 0.9545].iter().any(|p| names_level(words, *p))
+    is_few && states_usual_level(&claimed.words)
 }
 
 /// Degrees of freedom below which k = 2 is too small for 95 %.

@@ -26,6 +26,10 @@ fn the_factor_of_a_standard_uncertainty_is_no_coverage_factor() {
     let two = worksheet("2", "0.00072");
     assert_eq!(first("sheet.csv", &two), "k2-low-dof");
     is_sound("sheet.csv", &two.replace(" (95 %)", ""));
+    let indexed = two
+        .replace(" (95 %)", "")
+        .replace("Expanded uncertainty", "Expanded uncertainty U95");
+    assert_eq!(first("sheet.csv", &indexed), "k2-low-dof");
 }
 
 /// The label of u_c stands behind its figure, in the column of the sources.

@@ -1,4 +1,5 @@
-//! Letters, digits and signs in other forms than those of a plain keyboard: of full width, as a Chinese one writes them, and raised.
+//! Letters, digits and signs in other forms than those of a plain keyboard: of full width, as a Chinese one writes them, raised,
+//! and of other alphabets.
 
 /// The letter or sign for which one of full width stands, `Ｖ` or `％`; any other as it is.
 pub fn narrow(c: char) -> char {
@@ -39,6 +40,32 @@ pub fn raised(c: char) -> char {
     }
 }
 
+/// Letters of other alphabets, and the Latin ones from which no eye tells them; of what stands twice in Unicode, the usual one.
+const ALIKE: [(&str, &str); 3] = [
+    ("аеорсухіјѕһАВЕКМНОРСТУХІЈЅ", "aeopcyxijshABEKMHOPCTYXIJS"),
+    ("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABEZHIKMNOPTYXo"),
+    ("\u{3bc}\u{2126}\u{212a}", "µ\u{3a9}K"),
+];
+
+/// A name in Latin letters wherever another one looks the same.
+pub fn in_latin(name: &str) -> String {
+    let latin = |c: char| {
+        ALIKE.iter().find_map(|(other, latin)| {
+            let place = other.chars().position(|other| other == c)?;
+            latin.chars().nth(place)
+        })
+    };
+    name.chars().map(|c| latin(c).unwrap_or(c)).collect()
+}
+
+/// The first letters in which two names differ that look the same, each with its number in Unicode.
+pub fn told_apart(written: &str, meant: &str) -> Option<[String; 2]> {
+    let alike = written != meant && in_latin(written) == in_latin(meant);
+    let mut pairs = written.chars().zip(meant.chars());
+    let (one, other) = pairs.find(|(one, other)| one != other).filter(|_| alike)?;
+    Some([one, other].map(|c| format!("U+{:04X}", u32::from(c))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,6 +76,19 @@ mod tests {
         let plain: String = ('!'..='~').collect();
         assert_eq!(wide, plain);
         assert!(is_wide('％') && !is_wide('%') && !is_wide('、') && !is_wide('。'));
+    }
+
+    #[test]
+    fn letters_that_look_alike_are_told_apart() {
+        for (other, latin) in ALIKE {
+            assert_eq!(other.chars().count(), latin.chars().count());
+            assert!(other.chars().zip(latin.chars()).all(|(a, b)| a != b));
+        }
+        let codes = |a: &str, b: &str| told_apart(a, b).map(|codes| codes.join(" "));
+        assert_eq!(codes("t_а", "t_a").as_deref(), Some("U+0430 U+0061"));
+        assert_eq!(codes("Α", "А").as_deref(), Some("U+0391 U+0410"));
+        assert_eq!(codes("a", "a"), None);
+        assert_eq!(codes("a", "o"), None);
     }
 
     #[test]

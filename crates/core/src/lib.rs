@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`calendar`] | the days of months | |
 //! | [`dd`] | numbers of twice the precision of a double, for sums and designs that lose all their digits otherwise | |
-//! | [`letters`] | full width and raised ones, and the plain ones for which they stand | |
+//! | [`letters`] | full width, raised ones and those of other alphabets, and the plain ones for which they stand | |
 //! | [`quantity`] | units and dimensions at run time, decimal rounding and printing | |
 //! | [`special`] | quantiles of normal, t, χ² and F, gamma and beta functions, over their whole range | |
 //! | [`statistics`] | readings: scatter, serial correlation, analysis of variance, outlier tests | dd, special |

@@ -63,7 +63,7 @@ pub(super) fn missing(reason: &MissingMoments) -> Said {
             };
             let power = exponent(*index);
             say!(
-                "The {side} tail of the Monte Carlo trials falls off like the power −{power} of the distance from the median, so that {then}. {given} Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant."
+                "The {side} tail of the Monte Carlo trials falls off roughly like the power −{power} of the distance from the median, so that {then}. {given} Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant."
             )
         }
         MissingMoments::FewTrials { relative_error } => say!(

@@ -126,7 +126,19 @@ pub(super) fn freedom(dof: f64) -> String {
     if dof > 0.0 && dof < 0.1 {
         return significant(dof, 1);
     }
-    let places = if dof < 100.0 { -3..=-1 } else { 0..=0 };
+    at_first_of(dof, if dof < 100.0 { -3..=-1 } else { 0..=0 })
+}
+
+/// Degrees of freedom that are cut to a whole number, with a decimal that shows from what: 177.97 is not cut from 178.
+pub(super) fn before_cut(dof: f64) -> String {
+    match dof > AS_GOOD_AS_INFINITE {
+        true => effective(dof),
+        false => at_first_of(dof, -3..=-1),
+    }
+}
+
+/// Degrees of freedom to the last of these places that does not round them up to the next whole number.
+fn at_first_of(dof: f64, places: std::ops::RangeInclusive<i32>) -> String {
     let keeps = |place: &i32| at_place(dof, *place).to_f64() < dof.floor() + 1.0;
     let place = places.clone().rev().find(keeps).unwrap_or(*places.end());
     let text = print(&at_place(dof, place));
@@ -175,6 +187,7 @@ mod tests {
         assert_eq!(effective(14_406_319.0), "∞");
         assert_eq!(effective(9_999.0), "9999");
         assert_eq!([freedom(16.74), effective(16.74)], ["16.7", "16.7"]);
+        assert_eq!([177.97, 11.4, 2e4].map(before_cut), ["177.97", "11.4", "∞"]);
     }
 
     /// k is taken for 2 of these: GUM G.4.1 cuts them.

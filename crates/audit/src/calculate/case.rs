@@ -5,7 +5,7 @@ use gumption_fault::Said;
 
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE, Row, Stated};
 use crate::printed::Printed;
-use crate::read::{FIXED, probability_of_factor, unusual_level, usual_levels};
+use crate::read::{FIXED, probability_of_factor, states_usual_level, unusual_level, usual_levels};
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report, t};
@@ -163,6 +163,7 @@ fn freedom(claimed: &Claimed, welch: &Calculation) -> Freedom {
 /// The rules for k that the sheet allows; the first is the usual one.
 pub fn factors(claimed: &Claimed) -> Vec<Factor> {
     match claimed.coverage {
+        Coverage::Fixed(2.0) if claims_too_much_of_two(claimed) => usual_factors(claimed),
         Coverage::Fixed(k) => vec![Factor::Fixed(k)],
         Coverage::StudentT(p) => vec![Factor::StudentT(p)],
         Coverage::Rectangle => vec![Factor::Rectangle],
@@ -189,13 +190,26 @@ fn usual_factors(claimed: &Claimed) -> Vec<Factor> {
     let levels = usual_levels(&claimed.words);
     let levels = levels.chain(probability_of_factor(&claimed.words));
     let levels = levels.chain(stated.and_then(level_of_factor));
-    let fixed = stated.into_iter().chain([2.0]).map(Factor::Fixed);
+    let two = Some(2.0).filter(|_| !claims_too_much_of_two(claimed));
+    let fixed = stated.into_iter().chain(two).map(Factor::Fixed);
     let looked_up = levels.map(Factor::StudentT);
     match looks_up(claimed) {
         true => looked_up.chain(fixed).collect(),
         false => fixed.chain(looked_up).collect(),
     }
 }
+
+/// Whether a sheet states a probability of about 95 % for its U or k, and degrees of freedom at which k = 2 does not have it:
+/// fewer than ten (rule 39; EA-4/02 M:2022, annex E; JCGM 100, G.6.6, which asks for more than ten). A laboratory that states
+/// k = 2 and no probability claims nothing that would be wrong.
+fn claims_too_much_of_two(claimed: &Claimed) -> bool {
+    let nu = claimed.footer.nu_eff.as_ref();
+    let is_few = nu.is_some_and(|nu| nu.value + nu.half < FEW_DEGREES);
+    is_few && states_usual_level(&claimed.words)
+}
+
+/// Degrees of freedom below which k = 2 is too small for 95 %.
+const FEW_DEGREES: f64 = 10.0;
 
 /// Whether a sheet states its degrees of freedom, and a k that nobody fixes: it was looked up.
 fn looks_up(claimed: &Claimed) -> bool {

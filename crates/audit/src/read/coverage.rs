@@ -186,15 +186,29 @@ pub(crate) fn usual_levels(words: &str) -> impl Iterator<Item = f64> {
 
 /// Whether a line about coverage names a probability.
 pub(crate) fn names_level(words: &str, p: f64) -> bool {
+    let mut levels = of_coverage(words).filter_map(|line| named_probability(&line));
+    levels.any(|level| level == p)
+}
+
+/// Whether a line about coverage states one of the usual probabilities, by a name or by an index: `U95`.
+pub(crate) fn states_usual_level(words: &str) -> bool {
+    let lines = words.lines().map(str::to_lowercase);
+    let lines = lines.filter(|line| !is_of_certificate(line));
+    let indexed = lines.filter_map(|line| index_of(&line, &['k', 'u']));
+    let named = of_coverage(words).filter_map(|line| named_probability(&line));
+    indexed.chain(named).any(|level| USUAL.contains(&level))
+}
+
+/// The lines about coverage, in small letters.
+fn of_coverage(words: &str) -> impl Iterator<Item = String> {
     let is_of_coverage = |line: &String| {
         has(line, &["coverage", "confidence", "包含", "置信", "k", "u"]) && !is_of_certificate(line)
     };
-    let lines = words.lines().map(str::to_lowercase);
-    let mut levels = lines
-        .filter(is_of_coverage)
-        .filter_map(|line| named_probability(&line));
-    levels.any(|level| level == p)
+    words.lines().map(str::to_lowercase).filter(is_of_coverage)
 }
+
+/// Both usual probabilities, and those between them that are rounded.
+const USUAL: RangeInclusive<f64> = 0.945..=0.956;
 
 /// The probability that the sheet states of its U or k, where it is none of the usual ones: `U99`, `U (99 %)`, `k_99`,
 /// `coverage probability 99.73 %`.
@@ -207,8 +221,6 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
         "置信概率",
         "置信水平",
     ];
-    /// Both usual ones, and those between them that are rounded.
-    const USUAL: RangeInclusive<f64> = 0.945..=0.956;
     let is_of_whole = |line: &&str| {
         let label = footer::label(line, "");
         let is_figure = matches!(label, Some(Whole::Expanded | Whole::Factor));

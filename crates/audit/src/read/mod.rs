@@ -68,7 +68,9 @@ mod wrapped;
 
 pub use columns::Role;
 pub(crate) use counts::count_before;
-pub(crate) use coverage::{names_level, probability_of_factor, unusual_level, usual_levels};
+pub(crate) use coverage::{
+    names_level, probability_of_factor, states_usual_level, unusual_level, usual_levels,
+};
 pub(crate) use factor::FIXED;
 pub(crate) use family::{AVERAGE, RESOLUTION, STEP};
 pub(crate) use footer::Whole;

@@ -146,7 +146,7 @@ pub fn correlation(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
             .flat_map(each_coefficient)
             .collect()
     } else {
-        with_lists(text.split([';', ',', '。']), claimed)
+        with_figures(with_lists(text.split([';', ',', '。']), claimed), claimed)
     };
     let said: Vec<String> = clauses
         .into_iter()
@@ -225,6 +225,42 @@ fn with_lists<'t>(parts: impl Iterator<Item = &'t str>, claimed: &Claimed) -> Ve
     clauses
 }
 
+/// The clauses, of which those that name two rows and no coefficient have that of the next one: `a and b, a and c: +1`.
+fn with_figures(clauses: Vec<String>, claimed: &Claimed) -> Vec<String> {
+    let names_two = |clause: &str| {
+        let rows = claimed.rows.iter();
+        rows.filter(|row| symbol_at(clause, &row.symbol, 0).is_some())
+            .count()
+            > 1
+    };
+    let mut figure = String::new();
+    let mut clauses: Vec<String> = clauses.into_iter().rev().collect();
+    for clause in &mut clauses {
+        let stated = clause.rsplit_once([':', '=', '：']);
+        let stated = stated.filter(|(_, value)| leading(value.trim()).is_some());
+        match stated {
+            Some((front, value)) => {
+                value.trim().clone_into(&mut figure);
+                *clause = format!("{front} = {figure}");
+            }
+            None if figure.is_empty() || has(&clause.to_lowercase(), &FULL) => {}
+            None if names_two(clause) => *clause = format!("{clause} = {figure}"),
+            None => {}
+        }
+    }
+    clauses.reverse();
+    clauses
+}
+
+/// Words for the coefficient 1.
+const FULL: [&str; 5] = [
+    "fully",
+    "full correlation",
+    "完全正相关",
+    "完全相关",
+    "强相关",
+];
+
 /// The pairs of rows that a clause names, with its coefficient.
 fn pairs(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
     let lower = text.to_lowercase();
@@ -253,16 +289,7 @@ fn pairs(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
             .collect();
     }
     places.sort_unstable();
-    let full = || {
-        let words = [
-            "fully",
-            "full correlation",
-            "完全正相关",
-            "完全相关",
-            "强相关",
-        ];
-        has(&lower, &words).then(|| Printed::exact(1.0, "1"))
-    };
+    let full = || has(&lower, &FULL).then(|| Printed::exact(1.0, "1"));
     let stated = || {
         // The bracket is that of `r(a, b) is 0.5`.
         let keys = ["coefficient", "相关系数", "correlation", "r", ")"];
@@ -435,6 +462,29 @@ mod tests {
         Claimed {
             rows: symbols.iter().map(row).collect(),
             ..Claimed::default()
+        }
+    }
+
+    #[test]
+    fn pairs_of_a_line_share_the_coefficient_behind_them() {
+        let claimed = with_rows(&["m1", "m2", "m3"]);
+        for (text, pairs) in [
+            (
+                "Correlation coefficient between m1 and m2, m1 and m3, m2 and m3: +1",
+                vec![(0, 1, 1.0), (0, 2, 1.0), (1, 2, 1.0)],
+            ),
+            (
+                "Correlation: m1 and m2 fully; m1 and m3 = 0.5",
+                vec![(0, 1, 1.0), (0, 2, 0.5)],
+            ),
+            (
+                "m1, m2 and m3 are correlated: r = 0.25",
+                vec![(0, 1, 0.25), (0, 2, 0.25), (1, 2, 0.25)],
+            ),
+        ] {
+            let found = correlation(text, &claimed).unwrap_or_default();
+            let found: Vec<_> = found.iter().map(|pair| (pair.a, pair.b, pair.r)).collect();
+            assert_eq!(found, pairs, "{text}");
         }
     }
 

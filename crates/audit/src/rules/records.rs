@@ -288,8 +288,70 @@ pub(super) fn old_budget(seen: &Seen<'_>) -> Vec<Hit> {
     hit.into_iter().collect()
 }
 
-/// Days of the calendar in a text, written as `2026-01-31`, `2026/1/31` or `2026年1月31日`.
+/// Days of the calendar in a text, written as `2026-01-31`, `2026/1/31`, `2026年1月31日`, `31.01.2026` or `31 January 2026`. Of
+/// `1/2/2026` nobody can say which is the month.
 pub(super) fn dates(text: &str) -> Vec<Day> {
+    let mut found = of_figures(text);
+    found.extend(with_month(text));
+    found
+}
+
+/// Days whose month is a word: `31 January 2026`, `Jan. 31, 2026`, `31-Jan-2026`.
+fn with_month(text: &str) -> Vec<Day> {
+    const MONTHS: [&str; 12] = [
+        "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec",
+    ];
+    const NAMES: [&str; 12] = [
+        "january",
+        "february",
+        "march",
+        "april",
+        "may",
+        "june",
+        "july",
+        "august",
+        "september",
+        "october",
+        "november",
+        "december",
+    ];
+    let lower = text.to_lowercase();
+    let words = lower.split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    let month = |word: &str| {
+        let is_it =
+            |i: &usize| word == NAMES[*i] || word == MONTHS[*i] || word == "sept" && *i == 8;
+        (0..12).find(is_it).map(|i| i as u64 + 1)
+    };
+    let day = |word: &str| {
+        let figures = word.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let is_ordinal = ["", "st", "nd", "rd", "th"].contains(&&word[figures.len()..]);
+        figures.parse::<u64>().ok().filter(|_| is_ordinal)
+    };
+    let year = |word: &str| word.parse::<u64>().ok().filter(|_| word.len() == 4);
+    let of = |three: &[&str]| {
+        let (a, b, c) = (three[0], three[1], three[2]);
+        let by_day = || Some((day(a)?, month(b)?));
+        let by_month = || Some((day(b)?, month(a)?));
+        let (day, month) = by_day().or_else(by_month)?;
+        Day::of(year(c)?, month, day)
+    };
+    words.windows(3).filter_map(of).collect()
+}
+
+/// Days in figures, of which the year has four.
+fn of_figures(text: &str) -> Vec<Day> {
+    // `31.01.2026` is a day; with a solidus it may as well begin with the month.
+    let dotted = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    let of_dotted = |word: &str| {
+        let figures: Vec<&str> = word.trim_matches('.').split('.').collect();
+        let [day, month, year] = figures.as_slice() else {
+            return None;
+        };
+        let year = Some(year).filter(|year| year.len() == 4)?;
+        Day::of(year.parse().ok()?, month.parse().ok()?, day.parse().ok()?)
+    };
+    let first: Vec<Day> = dotted.filter_map(of_dotted).collect();
     let plain = text.replace(['年', '月', '/', '.'], "-").replace('日', " ");
     let words = plain.split(|c: char| !(c.is_ascii_digit() || c == '-'));
     let date = |word: &str| {
@@ -300,7 +362,7 @@ pub(super) fn dates(text: &str) -> Vec<Day> {
         let year = Some(year).filter(|year| year.len() == 4)?;
         Day::of(year.parse().ok()?, month.parse().ok()?, day.parse().ok()?)
     };
-    words.filter_map(date).collect()
+    first.into_iter().chain(words.filter_map(date)).collect()
 }
 
 /// The standard deviation of a check standard that a line states, beside the one that it predicts.
@@ -355,6 +417,19 @@ mod tests {
         assert_eq!(
             days.iter().map(Day::to_string).collect::<Vec<_>>(),
             ["2026-01-31", "2026-02-03", "2026-03-14", "2024-02-29"]
+        );
+        let days = dates(
+            "15.01.2020, 4 March 2026, Sept. 30, 2025, 2nd Feb 2024, 7-May-2023; 1/2/2026; 31.02.2026; 1.0.2026",
+        );
+        assert_eq!(
+            days.iter().map(Day::to_string).collect::<Vec<_>>(),
+            [
+                "2020-01-15",
+                "2026-03-04",
+                "2025-09-30",
+                "2024-02-02",
+                "2023-05-07"
+            ]
         );
     }
 }

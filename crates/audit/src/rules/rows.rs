@@ -105,12 +105,21 @@ pub(super) fn derivative(seen: &Seen<'_>) -> Vec<Hit> {
     let Some(derivatives) = &seen.case.derivatives else {
         return Vec::new();
     };
+    let coefficients = || rows(seen).filter_map(|(_, row, _)| row.c.as_ref());
+    let signed = coefficients().any(|c| c.value < 0.0);
     rows(seen)
         .filter_map(|(i, row, line)| {
             let c = row.c.as_ref()?;
             // A coefficient may hold a conversion to the unit of the result.
             let right = [derivatives[i], derivatives[i] * line.to_y, line.c];
-            let near = |x: &f64| !far(c, *x, 0.01);
+            // Sheets print amounts, too: a sign is only held against one that has signs, or where it turns a correlation.
+            let signs_count = signed
+                || seen
+                    .claimed
+                    .correlations
+                    .iter()
+                    .any(|pair| pair.r != 0.0 && [pair.a, pair.b].contains(&i));
+            let near = |x: &f64| !far(c, *x, 0.01) && !(signs_count && x * c.value < 0.0);
             let wrong = !right.iter().any(near);
             wrong.then(|| {
                 Hit::of(

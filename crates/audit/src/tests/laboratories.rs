@@ -22,7 +22,33 @@ fn worksheet(factor: &str, expanded: &str) -> String {
 #[test]
 fn the_factor_of_a_standard_uncertainty_is_no_coverage_factor() {
     is_sound("sheet.csv", &worksheet("2.36", "0.00085"));
-    is_sound("sheet.csv", &worksheet("2", "0.00072"));
+    // Said to have 95 %, which 2 does not have at ν = 7 (91 %; JCGM 100, table G.2).
+    let two = worksheet("2", "0.00072");
+    assert_eq!(first("sheet.csv", &two), "k2-low-dof");
+    is_sound("sheet.csv", &two.replace(" (95 %)", ""));
+    let indexed = two
+        .replace(" (95 %)", "")
+        .replace("Expanded uncertainty", "Expanded uncertainty U95");
+    assert_eq!(first("sheet.csv", &indexed), "k2-low-dof");
+}
+
+/// The label of u_c stands behind its figure, in the column of the sources.
+#[test]
+fn u_c_may_have_its_label_on_the_right() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "u_i(y) [g],c_i,Uncertainty contribution from,Given as,Distribution\n\
+             0.25,1,Certificate,\"U = 0.50 g (k=2)\",normal\n\
+             0.1155,1,Drift,±0.20 g,rectangular\n\
+             0.0577,1,Resolution,±0.10 g,rectangular\n\
+             {u_c},,u_c,,\n\"U = {expanded} g (k = 2)\",,,,\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.281", "0.56"));
+    assert_eq!(
+        answer("sheet.csv", &sheet("0.251", "0.56")).0,
+        Verdict::Unexplained
+    );
 }
 
 #[test]

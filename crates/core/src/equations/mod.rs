@@ -336,6 +336,7 @@ fn reworded(fault: Fault, response: &str) -> Fault {
         measurand: response.into(),
         unit: say!("the unit of {response}"),
         given: say!("a column, parameter, reference or constant"),
+        stated: say!("in its own table"),
     };
     model::faults::reworded(fault, &own)
 }

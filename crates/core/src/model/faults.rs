@@ -11,6 +11,8 @@ pub struct Wording {
     pub unit: Said,
     /// What names of formulas stand for, beside those that they define.
     pub given: Said,
+    /// Where what stands in a formula has its unit.
+    pub stated: Said,
 }
 
 /// The words of budgets, which the messages of this module use.
@@ -18,6 +20,7 @@ pub(super) const OF_BUDGETS: Wording = Wording {
     measurand: say!("the measurand"),
     unit: say!("the measurand's unit"),
     given: say!("an input or constant of the file"),
+    stated: say!("where it has its value"),
 };
 
 /// A fault of this module in other words.
@@ -31,6 +34,7 @@ fn said_of(said: Said, own: &Wording) -> Said {
     said.replacing(&OF_BUDGETS.measurand, &own.measurand)
         .replacing(&OF_BUDGETS.unit, &own.unit)
         .replacing(&OF_BUDGETS.given, &own.given)
+        .replacing(&OF_BUDGETS.stated, &own.stated)
 }
 
 codes! {

@@ -77,6 +77,10 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
             ("lgamma" | "gammaln", _) => say!("write `ln_gamma`"),
             ("std" | "stdev" | "stddev", _) => say!("did you mean `sd`?"),
             ("Σ" | "∑", _) => say!("did you mean `sum`?"),
+            // Elsewhere the square: its nearest name here is the root.
+            ("sqr" | "square" | "sq", _) => {
+                say!("the square is `x^2`, the square root `sqrt(x)`")
+            }
             ("var" | "variance", _) => say!("write `sd(x)^2`"),
             ("weighted_mean" | "wmean" | "average_weighted", _) => {
                 say!("write `dot(w, x) / sum(w)`, with the weights w a vector constant")

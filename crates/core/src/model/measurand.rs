@@ -293,33 +293,45 @@ impl Check<'_> {
         }
     }
 
+    /// How a difference becomes a temperature on a scale, if it is not meant as a difference.
+    fn onto_scale(&self, name: &str, expr: &Expr, wanted: &Unit) -> Said {
+        let (scale, step) = (&wanted.symbol, wanted.difference().symbol.clone());
+        let text = printer::expression(expr);
+        let added = match scale.as_str() {
+            "°C" => say!(
+                "a thermodynamic temperature is on the scale as `0 '°C' + ({text} - 273.15 'K')`, a difference from 0 °C as `0 '°C' + ({text})`"
+            ),
+            _ => say!("a difference from 0 {scale} is on the scale as `0 '{scale}' + ({text})`"),
+        };
+        let is_point = |name: &&str| self.l.symbol(name).is_some_and(|s| s.unit.is_point());
+        match expr.names().iter().any(is_point) {
+            true => say!(
+                "write `unit = \"{step}\"` for `{name}` if it is an error or a correction: two quantities on the {scale} scale that are subtracted leave a difference. If one of the two is a correction, that one has `unit = \"{step}\"`, even if its value is zero; {added}"
+            ),
+            false => say!(
+                "{added}; if `{name}` is an error or a correction, write `unit = \"{step}\"` for it"
+            ),
+        }
+    }
+
     fn point_result(&mut self, name: &str, expr: &Expr, found: &Unit, wanted: &Unit) {
         if found.is_point() {
             self.l.point_fault(expr, found);
             return;
         }
-        let text = printer::expression(expr);
-        let thermodynamic = match wanted.symbol.as_str() {
-            "°C" => say!("; from a thermodynamic temperature subtract 273.15 'K' first"),
-            _ => Said::default(),
-        };
+        let help = self.onto_scale(name, expr, wanted);
         self.l.report(
             Fault::new(
                 faults::POINT,
                 expr.span.clone(),
                 say!(
                     "the value is a difference in {}, but `{name}` should be on the {} scale",
-                    found.symbol, wanted.symbol
+                    found.symbol,
+                    wanted.symbol
                 ),
             )
             .label(say!("a difference in {}", found.symbol))
-            .help(say!(
-                "write `unit = \"{}\"` for `{name}` if it is an error or a correction: two quantities on the {} scale that are subtracted leave a difference. If one of the two is a correction, that one has `unit = \"{}\"`, even if its value is zero; or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
-                wanted.difference().symbol,
-                wanted.symbol,
-                wanted.difference().symbol,
-                wanted.symbol
-            )),
+            .help(help),
         );
     }
 }

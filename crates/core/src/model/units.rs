@@ -9,7 +9,7 @@ use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node, Span};
-use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_in};
+use crate::quantity::{Dimension, Factor, Unit, bare_coulomb, hint_for_clash, revolutions_in};
 use gumption_fault::{Fault, Said, say};
 
 /// A quantity and the expression it came from.
@@ -111,11 +111,8 @@ impl Lowering<'_> {
         }
         let text = printer::expression(operand.expr);
         let symbol = &unit.symbol;
-        let help = hint_for_clash(&Unit::one(), unit).unwrap_or_else(|| {
-            say!(
-                "divide by a reference quantity, or write `value_in({text}, '{symbol}')` for its number in {symbol}"
-            )
-        });
+        let help = hint_for_clash(&Unit::one(), unit)
+            .unwrap_or_else(|| with_coulomb(self.number_help(operand.expr, unit), [unit]));
         self.report(
             Fault::new(
                 faults::NOT_ONE,
@@ -126,6 +123,22 @@ impl Lowering<'_> {
             .help(help),
         );
         None
+    }
+
+    /// How what has a unit becomes a number. A unit that was forgotten comes first: taking the number of what is left would
+    /// give another result, and nobody would see it.
+    fn number_help(&self, expr: &Expr, unit: &Unit) -> Said {
+        let (text, symbol) = (printer::expression(expr), &unit.symbol);
+        let Some((name, forgotten)) = self.forgotten(expr, unit, &Unit::one()) else {
+            return say!(
+                "divide by a reference quantity, or write `value_in({text}, '{symbol}')` for its number in {symbol}"
+            );
+        };
+        let stated = faults::OF_BUDGETS.stated;
+        say!(
+            "`{name}` has no unit; if it was forgotten, state it {stated} (`unit = \"{}\"` would fit); otherwise divide by a reference quantity, or write `value_in({text}, '{symbol}')` for the number in {symbol}",
+            forgotten.symbol
+        )
     }
 
     /// Brings two operands to the unit of the left one, for comparing, choosing and joining.
@@ -210,7 +223,7 @@ impl Lowering<'_> {
             printer::expression(left.expr),
             printer::expression(right.expr),
         );
-        let help = self.clash_help(left, right, &a, &b);
+        let help = with_coulomb(self.clash_help(left, right, &a, &b), [&a, &b]);
         self.report(
             Fault::new(
                 faults::CLASH,
@@ -414,6 +427,14 @@ fn angle_help(number: &str, angle: &Expr, unit: &Unit) -> Said {
             "write `{number} '{}'`, or `{number} 'rad'` if radians are meant",
             unit.symbol
         ),
+    }
+}
+
+/// A mend, behind what is to be known first where a unit has the coulomb in it.
+fn with_coulomb<'u>(help: Said, units: impl IntoIterator<Item = &'u Unit>) -> Said {
+    match bare_coulomb(units) {
+        Some(hint) if !help.to_string().contains("coulomb") => say!("{hint}; {help}"),
+        _ => help,
     }
 }
 

@@ -7,6 +7,7 @@ use super::builtin::{PREFIXES, Prefixes, UNITS, prefix_names};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
 use super::syntax::NamedTerm;
+use crate::letters::{in_latin, told_apart};
 use gumption_fault::{Between, Said, nearest, say};
 
 /// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
@@ -64,6 +65,12 @@ pub(super) fn for_unknown<'a>(
     is_known: impl Fn(&str) -> bool,
     own: impl Iterator<Item = &'a String>,
 ) -> Said {
+    let latin = in_latin(name);
+    if let Some([own, other]) = told_apart(name, &latin).filter(|_| is_known(&latin)) {
+        return say!(
+            "write `{latin}`, which looks the same: a letter of `{name}` is {own} of Unicode, that of `{latin}` {other}"
+        );
+    }
     if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
         return advice.clone();
     }
@@ -149,13 +156,20 @@ fn by_misspelt_name(name: &str) -> Option<&'static str> {
         .filter(|_| lower.len() >= SHORTEST)
 }
 
+/// Units that go with the prefixes h, da and d.
+const OF_TENS: [&str; 5] = ["Pa", "L", "m", "g", "B"];
+
 /// All spellings of built-in units, those with prefixes last, each with its letters in lower case.
 static SPELLINGS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
     let plain = UNITS
         .iter()
         .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
-    let prefixed = PREFIXES.iter().flat_map(|(prefix, _)| {
-        let takes_prefix = UNITS.iter().filter(|unit| unit.prefixes == Prefixes::All);
+    let prefixed = PREFIXES.iter().flat_map(|(prefix, ten)| {
+        // Factors of ten and a hundred are in use with few units: `hK` and `dN` are what nobody means.
+        let is_usual = |symbol: &str| *ten == -2 || ten.abs() > 2 || OF_TENS.contains(&symbol);
+        let takes_prefix = UNITS
+            .iter()
+            .filter(move |unit| unit.prefixes == Prefixes::All && is_usual(unit.symbol));
         let names = takes_prefix.flat_map(|unit| {
             // `ohm` stands for `Ohm` as well.
             let is_first = |at: usize| {
@@ -201,24 +215,53 @@ fn same_letters<'a>(name: &str, own: &[&'a String]) -> Vec<&'a str> {
     same
 }
 
-/// A product written without a sign: `Nm`, `Pas`, `mVs`, `gK`, `%mol`. Suggesting a mere change of case, the
+/// A product written without a sign: `Nm`, `Pas`, `mVs`, `gK`, `%mol`, `m2K`. Suggesting a mere change of case, the
 /// nanometre for the first, would be dangerous.
 fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<Said> {
     if let Some(unit) = name.strip_prefix('%').filter(|unit| is_known(unit)) {
         return Some(say!("write `% {unit}`, with a space"));
     }
-    let (first, second) = ["cm", "mm", "km", "m", "s", "h", "K"]
-        .iter()
-        .find_map(|second| {
-            let first = name.strip_suffix(second).filter(|first| is_known(first))?;
-            Some((first, *second))
-        })?;
-    Some(match second {
+    let (first, second) = two_factors(name, &is_known)?;
+    Some(match second.as_str() {
         "s" => say!(
             "units have no plural: write `{first}`, or `{first}·s` for the product with the second"
         ),
         _ => say!("write `{first}·{second}` for the product; below a solidus `({first}·{second})`"),
     })
+}
+
+/// The factors of a product without a sign, each with its power: `m2K`, `kgm2`, `g°C`.
+fn two_factors(name: &str, is_known: impl Fn(&str) -> bool) -> Option<(String, String)> {
+    /// What stands second in products of the laboratory.
+    const SECOND: [&str; 7] = ["cm", "mm", "km", "m", "s", "h", "K"];
+    let digit = |c: char| ('2'..='4').contains(&c);
+    let powered = |part: &str| {
+        let letters = part.strip_suffix(digit);
+        letters.map_or_else(
+            || part.to_owned(),
+            |letters| format!("{letters}^{}", &part[letters.len()..]),
+        )
+    };
+    let behind_a_power = || {
+        let (letters, rest) = name.split_at(name.find(digit)?);
+        let (power, rest) = rest.split_at(1);
+        let both = is_known(letters) && is_known(rest.trim_end_matches(digit));
+        both.then(|| (format!("{letters}^{power}"), powered(rest)))
+    };
+    let side_by_side = || {
+        let letters = name.strip_suffix(digit).unwrap_or(name);
+        SECOND.iter().find_map(|second| {
+            let first = letters.strip_suffix(second)?;
+            // The product of two lengths in one name, `mcm`, is no unit that anybody means.
+            let is_factor = is_known(first) && !SECOND[..4].contains(&first);
+            is_factor.then(|| (first.to_owned(), powered(&name[first.len()..])))
+        })
+    };
+    let of_celsius = || {
+        let first = name.strip_suffix("°C").filter(|first| is_known(first))?;
+        Some((first.to_owned(), "K".to_owned()))
+    };
+    behind_a_power().or_else(side_by_side).or_else(of_celsius)
 }
 
 /// The symbol of a unit that was written out: `Volt`, `meters`, `degrees Celsius`.
@@ -278,6 +321,21 @@ const BY_PROCEDURE: &[&str] = &[
 const STANDARD_LITRE: Said =
     say!("write `L/min`, and say in the description at which temperature and pressure");
 
+const NORM_LITRE: Said =
+    say!("write `L`, and say in the description at which temperature and pressure (norm litre)");
+
+const NORM_CUBIC_METRE: Said = say!(
+    "write `m^3`, and say in the description at which temperature and pressure (norm cubic metre)"
+);
+
+const REVOLUTION: Said = say!(
+    "write `r` for the revolution, `r/min` or `rpm` for a speed; the enzyme unit is `µmol/min`, the dalton `u`"
+);
+
+const GON: Said = say!("write `gon` for the hundredth of a right angle, `°` for the degree");
+
+const NEWTON_METRE: Said = say!("write `N·m` for the newton metre, `nm` for the nanometre");
+
 const TON: Said = say!(
     "write `t` for 1000 kg; another ton is declared in the [unit] table, as in `ton = \"2000 lb\"`"
 );
@@ -298,6 +356,23 @@ const FREQUENT: &[(&str, Said)] = &[
     ("µM", say!("write `µmol/L`")),
     ("uM", say!("write `µmol/L`")),
     ("nM", say!("write `nmol/L`")),
+    ("NM", NEWTON_METRE),
+    ("U", REVOLUTION),
+    ("Umdr", REVOLUTION),
+    ("rev", REVOLUTION),
+    ("revs", REVOLUTION),
+    ("grad", GON),
+    ("grads", GON),
+    ("kp", say!("write `kgf`")),
+    ("Nl", NORM_LITRE),
+    ("NL", NORM_LITRE),
+    ("Nm3", NORM_CUBIC_METRE),
+    ("Nm³", NORM_CUBIC_METRE),
+    ("Sm3", NORM_CUBIC_METRE),
+    (
+        "DN",
+        say!("a nominal size is no amount: write the diameter, as in `mm`"),
+    ),
     ("Hg", say!("write `mmHg` or `inHg`, without a space")),
     (
         "mmH2O",

@@ -77,6 +77,14 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<Said> {
     None
 }
 
+/// What to say where a unit in `C` is refused: whoever writes of temperatures does not think of the coulomb.
+pub fn bare_coulomb<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Said> {
+    let has_coulomb = |unit: &Unit| names_in(&unit.symbol).iter().any(|name| name == "C");
+    units.into_iter().any(has_coulomb).then(|| {
+        say!("`C` is the coulomb (charge); degrees Celsius are `°C` or `degC`, differences `K`")
+    })
+}
+
 /// What to say of a unit that is the reciprocal of a charge where its writer had degrees Celsius in mind: beside values in
 /// `C` no units clash.
 pub fn per_coulomb(unit: &Unit) -> Option<Said> {
@@ -117,6 +125,9 @@ mod tests {
         assert!(hint("K", "C").contains("coulomb"));
         let told = |symbol: &str| per_coulomb(&unit(symbol)).is_some();
         assert!(told("1/C") && told("ppm/C") && told("C^-1"));
+        let of_charge = |symbol: &str| bare_coulomb([&unit("m"), &unit(symbol)]).is_some();
+        assert!(of_charge("C") && of_charge("C/K") && of_charge("ppm·C"));
+        assert!(!of_charge("°C") && !of_charge("mC") && !of_charge("A·s"));
         assert!(!told("C") && !told("Gy/C") && !told("1/K") && !told("1/nC"));
         assert!(hint("1", "dB").contains("amplitudes"));
         assert_eq!(hint("m", "s"), "");

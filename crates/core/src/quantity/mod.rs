@@ -25,7 +25,7 @@ mod unit;
 pub use advice::symbol_of_name;
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
 pub use chinese::unit_of_chinese;
-pub use clash::{hint_for_clash, per_coulomb};
+pub use clash::{bare_coulomb, hint_for_clash, per_coulomb};
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
 pub use factor::Factor;

@@ -95,6 +95,7 @@ pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
         tokens: &tokens,
         next: 0,
         numbers,
+        below: false,
     };
     let product = parser.product(0)?;
     if let Some(token) = parser.peek() {
@@ -124,6 +125,8 @@ struct Parser<'t> {
     tokens: &'t [Token],
     next: usize,
     numbers: Numbers,
+    /// Whether what is read stands below a solidus.
+    below: bool,
 }
 
 /// A partial result.
@@ -193,7 +196,9 @@ impl Parser<'_> {
         loop {
             if let Some(solidus) = self.eat(&Kind::Over) {
                 let divisor_start = self.peek().map_or(solidus.end, |token| token.span.start);
+                self.below = !self.below;
                 let divisor = self.operand(depth)?;
+                self.below = !self.below;
                 if !divisor.terms.is_empty() {
                     divided_by_name = Some(divisor_start);
                 }
@@ -345,12 +350,9 @@ impl Parser<'_> {
             .help(say!("use a positive number of at most fifteen digits"))
         })?;
         if self.numbers == Numbers::OneOnly && text != "1" {
-            let help = self.named_ratio(factor, &span).unwrap_or_else(|| {
-                say!(
-                    "multiply the value by it, or define a unit of your own in the [unit] table; \
-                       fractional exponents need parentheses, as in `Hz^(1/2)`"
-                )
-            });
+            let help = self
+                .named_ratio(factor, &span)
+                .unwrap_or_else(|| self.without_number());
             return Err(UnitError::new(
                 NUMBER_IN_UNIT,
                 span,
@@ -362,6 +364,23 @@ impl Parser<'_> {
             number: factor,
             ..Product::one()
         })
+    }
+
+    /// What becomes of a number that stands in a unit: below a solidus, `g/100g`, it divides.
+    fn without_number(&self) -> Said {
+        let before = self.tokens[..self.next].iter().rev().skip(1);
+        let kinds: Vec<&Kind> = before.map(|token| &token.kind).take(3).collect();
+        match kinds[..] {
+            [Kind::Over, Kind::Number, Kind::Power] => say!(
+                "fractional exponents need parentheses, as in `Hz^(1/2)`; otherwise leave the number out, and divide the value by it"
+            ),
+            _ if self.below => say!(
+                "it stands below the solidus: leave it out, and divide the value by it; or define a unit of your own in the [unit] table"
+            ),
+            _ => say!(
+                "leave it out, and multiply the value by it; or define a unit of your own in the [unit] table"
+            ),
+        }
     }
 
     /// The unit that a power of ten is, which was read last: `10^-6/K` is `ppm/K`.
@@ -683,9 +702,19 @@ mod tests {
         assert_eq!(error("m//10^-6").2, "write a unit as in `m/s^2` or `1/K`");
         assert_eq!(
             error("m/10^3/K").2,
-            "multiply the value by it, or define a unit of your own in the [unit] table; fractional exponents need parentheses, as in `Hz^(1/2)`"
+            "it stands below the solidus: leave it out, and divide the value by it; or define a unit of your own in the [unit] table"
         );
+        for (text, what) in [
+            ("g/100g", "divide the value"),
+            ("L/(100km)", "divide the value"),
+            ("m/(s/100g)", "multiply the value"),
+            ("100 g/L", "multiply the value"),
+            ("m^2/100 g", "divide the value"),
+        ] {
+            assert!(error(text).2.contains(what), "{text}: {}", error(text).2);
+        }
         assert_eq!(error("s^1/2").0, 4..5);
+        assert!(error("s^1/2").2.starts_with("fractional exponents"));
         assert_eq!(
             error("N-m").2,
             "write a product as `N·m`, a negative exponent as `s^-1`"

@@ -554,6 +554,27 @@ mod tests {
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));
         assert!(suggestion("frobs").contains("[unit]"));
+        for (text, mend) in [
+            ("W/m2K", "below a solidus `(m^2·K)`"),
+            ("kgm2", "`kg·m^2`"),
+            ("m2s2", "`m^2·s^2`"),
+            ("J/kg°C", "`kg·K`"),
+            ("Nm3/h", "norm cubic metre"),
+            ("Nl/min", "norm litre"),
+            ("NM", "`N·m`"),
+            ("U/min", "`r/min`"),
+            ("grad", "`gon`"),
+            ("kp", "`kgf`"),
+            ("DN", "diameter"),
+            ("Ра", "a letter of `Ра` is U+0420"),
+            ("hk", "[unit]"),
+            ("mcm", "[unit]"),
+            ("Hpa", "`hPa`"),
+        ] {
+            let said = suggestion(text);
+            assert!(said.contains(mend), "{text}: {said}");
+        }
+        assert!(!suggestion("mcm").contains('·') && !suggestion("hk").contains("hK"));
     }
 
     #[test]

@@ -35,7 +35,9 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
         ))
     })?;
     if certificate.results.is_empty() {
-        return Err(Unfit(say!("nothing was measured that could be certified")));
+        return Err(Unfit(say!(
+            "a digital certificate states results with their U; what is stated with a decision threshold or a detection limit, what is only planned, and units that the D-SI does not have are not written as one: choose another form, such as html, docx or xlsx"
+        )));
     }
     let administration = administration.clone().in_languages(&certificate.languages);
     let root = element("dcc:digitalCalibrationCertificate")

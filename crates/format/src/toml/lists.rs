@@ -133,7 +133,9 @@ pub fn as_a_list(value: &Raw<'_>, file: &str) -> Option<Said> {
             "one is a list as well: [{{ … }}], or the header in double brackets"
         )),
         DeValue::String(text) => {
-            let separated = text.split([',', ';', '，', '、', ' ']);
+            // A list in a cell of a table that other commas part: `[1.0001; 1.0002]`.
+            let inside = text.trim().trim_start_matches('[').trim_end_matches(']');
+            let separated = inside.split([',', ';', '，', '、', ' ']);
             let members: Vec<&str> = separated.map(str::trim).filter(|m| !m.is_empty()).collect();
             let numbers = members.len() > 1 && members.iter().all(|m| m.parse::<f64>().is_ok());
             match numbers {

@@ -197,6 +197,14 @@ fn expected(takes: Takes) -> (Value, Said) {
 fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<&'static Entry> {
     let Some(kind) = kind_named(text) else {
         let known: Vec<&'static str> = shape_names().collect();
+        if let Some(help) = none_of_them(text) {
+            let fault = Fault::new(
+                UNKNOWN_WORD,
+                value.span(),
+                say!("`{text}` is not known here"),
+            );
+            return reader.refuse(fault.label(say!("no distribution of the list")).help(help));
+        }
         let words = shapes().map(|shape| format!("\"{}\"", shape.kind.key));
         let expected = say!("one of {}", words.collect::<Vec<_>>().join(", "));
         return reader.refuse(unknown_word(value, text, &known, expected, reader.hints));
@@ -215,6 +223,21 @@ fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<&'stati
             )),
         )
     })
+}
+
+/// What to state for a distribution between limits that handbooks have and this list has not; u follows from its variance.
+fn none_of_them(text: &str) -> Option<Said> {
+    match text.to_lowercase().trim_end_matches(" distribution") {
+        "cosine" | "raised cosine" | "raised-cosine" | "raised_cosine" | "余弦" | "余弦分布" => {
+            Some(say!(
+                "a cosine distribution between ±a has the standard deviation 0.362 a: state it as `u`; what swings between its limits as a sine is `arcsine`"
+            ))
+        }
+        "quadratic" | "parabolic" | "二次" | "抛物线" => Some(say!(
+            "a quadratic distribution between ±a has the standard deviation a/√5: state it as `u`"
+        )),
+        _ => None,
+    }
 }
 
 /// The distributions whose name goes beside a width.

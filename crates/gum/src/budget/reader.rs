@@ -129,7 +129,7 @@ fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
 fn not_a_budget(name: &str) -> Fault {
     Fault::new(UNREADABLE_FILE, 0..0, say!("{name} is a table of values, not a budget"))
         .help(say!(
-            "a budget (*.toml) names the file where it needs it: readings = {{ file = \"{name}\", column = \"…\" }}"
+            "a budget (*.toml) names the file where it needs it: readings = {{ file = \"{name}\", column = \"…\" }}; the sheet of a finished budget is recomputed by `gumption audit`, and becomes a budget by `gumption import`"
         ))
 }
 

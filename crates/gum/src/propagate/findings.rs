@@ -211,7 +211,9 @@ impl Evidence<'_> {
         let exceeds = estimate > 0.0 && lines[input].u > estimate;
         let ratio = size(&input) / rest;
         let large = ratio > BEYOND_DOUBT || exceeds && ratio > LARGE;
-        (large && rest > 0.0).then(|| FindingKind::LargeUncertainty {
+        // Beyond the digits of a double the others are what rounding leaves of zero.
+        let is_told = rest > f64::EPSILON * size(&input);
+        (large && is_told).then(|| FindingKind::LargeUncertainty {
             input: self.budget.inputs[input].name.to_string(),
             ratio,
         })

@@ -406,6 +406,21 @@ fn doubtful_models_are_named() {
     );
 }
 
+/// cos(π/2) is 6·10⁻¹⁷ and not zero: what it multiplies is no contribution beside which another one is large.
+#[test]
+fn what_rounding_leaves_of_zero_makes_no_input_large() {
+    let told = |phase: f64| {
+        let budget = Draft::new()
+            .normal("phi", phase, 1.8, INF)
+            .normal("g", 0.1, 1e-9, INF)
+            .budget(0.95, &[("y", "g * cos(phi)")]);
+        let large = |kind: &&FindingKind| matches!(kind, FindingKind::LargeUncertainty { .. });
+        kinds(&gum(&budget)).iter().any(large)
+    };
+    assert!(!told(std::f64::consts::FRAC_PI_2));
+    assert!(told(1.0));
+}
+
 #[test]
 fn no_value_and_no_derivative() {
     let draft = |model: &str| {

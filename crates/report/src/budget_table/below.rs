@@ -5,7 +5,7 @@ use crate::Report;
 use crate::comparison;
 use crate::figures::Figures;
 use crate::language::{Language, Word};
-use crate::number::{NONE, TABLE_DIGITS, effective, percent, probability, significant};
+use crate::number::{NONE, TABLE_DIGITS, before_cut, effective, percent, probability, significant};
 use gumption_fault::say;
 use gumption_format::document::{Cell, ColumnKind, Table};
 use gumption_gum::propagate::{
@@ -96,6 +96,7 @@ fn freedom(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
         .map(effective)
     {
         Some(used) if used != found => {
+            let found = before_cut(gum.freedom.value());
             say!("ν_eff {relation} {used} (cut from {found})").in_language(l)
         }
         _ => format!("ν_eff {relation} {found}"),

@@ -54,7 +54,8 @@ pub(super) fn read(
         is_relative: false,
         found: false,
     };
-    for (position, (column, text)) in cells.iter().enumerate() {
+    for position in order(&cells, &surroundings.measurand) {
+        let (column, text) = &cells[position];
         let place = Place {
             sheet,
             row,
@@ -72,6 +73,22 @@ pub(super) fn read(
         }
     }
     reading.found || labels::across(grid, sheet, row, claimed)
+}
+
+/// The order in which the cells of a row say what they say: a label may stand behind the only figure, in the column of the names
+/// of the sources: `0.295 |  | u_c`.
+fn order(cells: &[(usize, String)], measurand: &str) -> Vec<usize> {
+    let is_figure = |position: &usize| Printed::parse(&cells[*position].1).is_some();
+    let is_of_whole = |text: &str| {
+        let whole = footer::label(text, measurand);
+        matches!(whole, Some(Whole::Combined | Whole::Expanded)) && !text.contains('=')
+    };
+    let mut order: Vec<usize> = (0..cells.len()).collect();
+    let figures = order.iter().filter(|position| is_figure(position)).count();
+    if figures == 1 && is_figure(&0) && is_of_whole(&cells[1].1) {
+        order.swap(0, 1);
+    }
+    order
 }
 
 /// Notes what a text was understood as.

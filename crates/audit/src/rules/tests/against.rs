@@ -17,6 +17,7 @@ pub(super) fn against() -> Vec<(u8, Sheet)> {
         (4, row(3, |line| line.divisor = 1.0)),
         (5, replaced("38.1 %", "48.1 %")),
         (6, row(3, |line| line.c = 1.5)),
+        (6, row(3, |line| line.c = -1.0)),
         (7, replaced("m = 100.003 g", "m = 100.103 g")),
         (8, with(|sheet| sheet.linear = true)),
         (

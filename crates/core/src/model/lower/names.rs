@@ -1,7 +1,7 @@
 //! What stands alone: numbers, units, names.
 
 use super::{Binding, Lowering, Value};
-use crate::letters::narrow;
+use crate::letters::{narrow, told_apart};
 use crate::model::MeasurandSource;
 use crate::model::catalogue;
 use crate::model::faults;
@@ -147,7 +147,13 @@ impl Lowering<'_> {
         known.sort_unstable();
         let product = product(name, &known);
         let plain = full_width(name).filter(|plain| known.binary_search(&plain.as_str()).is_ok());
+        let alike = known
+            .iter()
+            .find_map(|known| Some((*known, told_apart(name, known)?)));
         let help = match nearest(name, known) {
+            _ if let Some((known, [own, other])) = alike => say!(
+                "write `{known}`, which looks the same: a letter of `{name}` is {own} of Unicode, that of `{known}` {other}"
+            ),
             _ if self.defining.as_deref() == Some(name) => say!(
                 "`{name}` is what this formula gives; an equation with `{name}` on both sides is written `solve({name} == …, {name}, start)`"
             ),

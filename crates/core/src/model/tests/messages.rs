@@ -5,7 +5,7 @@ use crate::model::Place;
 use crate::model::faults::CODES;
 
 /// Inputs of the cases below.
-const INPUTS: &str = "a b n L:mm t:s phi:° T:°C v[3] w[2] p:bar g:g";
+const INPUTS: &str = "a b n L:mm t:s phi:° T:°C v[3] w[2] p:bar g:g Q:C";
 
 /// Text, unit of the measurand, code, marked text, part of the help.
 #[rustfmt::skip] // A table reads by lines.
@@ -46,6 +46,8 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("ba + 1", "", "M0201", "ba", "a product has its sign: b * a"),
     ("sine(a)", "", "M0202", "sine", "did you mean `sin`?"),
     ("S(a - 7)", "", "M0202", "S", "`S * (…)`"),
+    ("sqr(a)", "", "M0202", "sqr", "the square is `x^2`, the square root `sqrt(x)`"),
+    ("а + b", "", "M0201", "а", "a letter of `а` is U+0430 of Unicode, that of `a` U+0061"),
     ("log(a)", "", "M0202", "log", "`ln` for the natural"),
     ("atan2(a)", "", "M0203", "atan2(a)", "atan2(y, x)"),
     ("f(x, y) = x; f(a)", "", "M0203", "f(a)", "f(x, y)"),
@@ -86,6 +88,10 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("100 * a / b", "%", "M0410", "100 * a / b", "leave 100 out"),
     ("2 * a + 20 * exp(b)", "°C", "M0405", "2 * a + 20 * exp(b)", "`0 '°C' + 1 'K' * "),
     ("value_in(L, 'mm') / value_in(t, 's')", "mm/s", "M0405", "value_in(L, 'mm') / value_in(t, 's')", "multiplied by `1 'mm/s'`"),
+    ("exp(-t / a)", "", "M0402", "-t / a", "`a` has no unit; if it was forgotten, state it where it has its value (`unit = \"s\"` would fit)"),
+    ("Q + 5", "C", "M0401", "5", "`C` is the coulomb"),
+    ("1 + Q / (1 'K')", "", "M0401", "Q / (1 'K')", "`C` is the coulomb"),
+    ("1 'K' / a", "°C", "M0404", "1 'K' / a", "`0 '°C' + (1 'K' / a - 273.15 'K')`"),
     ("sin(L)", "", "M0402", "L", "value_in(L, 'mm')"),
     ("round(L)", "", "M0402", "L", "value_in(L, 'mm')"),
     ("L^n", "mm", "M0403", "n", "(L / (1 'mm'))^n"),

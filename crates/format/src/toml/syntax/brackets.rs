@@ -25,7 +25,11 @@ pub(super) fn unclosed(text: &str) -> Option<(Fault, Range<usize>)> {
         '{' => ("}", say!("the table in braces")),
         _ => ("]", say!("the list")),
     };
-    let last = text[..next].trim_end().len();
+    let last = text[..next]
+        .trim_end()
+        .trim_end_matches(',')
+        .trim_end()
+        .len();
     let message = say!("{what} is not closed by `{closing}`");
     let fault = Fault::new(TOML_SYNTAX, opened..opened + 1, message)
         .label(say!("opened here"))
@@ -40,6 +44,8 @@ pub(super) fn unclosed(text: &str) -> Option<(Fault, Range<usize>)> {
 fn first_unclosed(text: &str) -> Option<Unclosed> {
     let mut open: Vec<(char, usize)> = Vec::new();
     let (mut at, mut before, mut suspect) = (0, ' ', None);
+    // A further key that is set in no more than the one whose table is open: of a table that is never closed, no member.
+    let mut neighbour = None;
     let mut is_indent = true;
     while let Some(c) = text[at..].chars().next() {
         let begins_line = is_indent;
@@ -51,9 +57,13 @@ fn first_unclosed(text: &str) -> Option<Unclosed> {
             let is_key = bracket == '{' && c != '[';
             // A further key of a table in braces stands behind a comma, which may have been forgotten.
             let is_further = is_key && [',', '{'].contains(&before);
-            let next = suspect.filter(|_| bracket == '{').unwrap_or(at);
+            let next = suspect.or(neighbour).filter(|_| bracket == '{');
+            let next = next.unwrap_or(at);
             match (is_key, is_further) {
-                (true, true) => {}
+                (true, true) => {
+                    let is_beside = indent(text, at) <= indent(text, opened);
+                    neighbour = neighbour.or(is_beside.then_some(at));
+                }
                 (true, false) => suspect = Some(next),
                 (false, _) => {
                     return Some(Unclosed {
@@ -80,6 +90,7 @@ fn first_unclosed(text: &str) -> Option<Unclosed> {
                     (']', Some(('[', _))) | ('}', Some(('{', _))) => {
                         open.pop();
                         suspect = suspect.filter(|_| !open.is_empty());
+                        neighbour = neighbour.filter(|_| !open.is_empty());
                     }
                     (']' | '}', Some((bracket, opened))) => {
                         return Some(Unclosed {
@@ -99,8 +110,15 @@ fn first_unclosed(text: &str) -> Option<Unclosed> {
     Some(Unclosed {
         bracket,
         opened,
-        next: suspect.unwrap_or(text.len()),
+        next: suspect.or(neighbour).unwrap_or(text.len()),
     })
+}
+
+/// How far the line of a place is set in.
+fn indent(text: &str, place: usize) -> usize {
+    let start = text[..place].rfind('\n').map_or(0, |end| end + 1);
+    let line = &text[start..];
+    line.len() - line.trim_start_matches([' ', '\t']).len()
 }
 
 /// The end of the text in quotes that begins there; nothing where it has none.
@@ -142,6 +160,15 @@ mod tests {
         ] {
             let (fault, _) = unclosed(text).expect(text);
             assert_eq!(fault.span.start, at, "{text}");
+        }
+        // Where the bracket belongs: behind the last member, and not behind that of the next table.
+        for (text, behind) in [
+            ("a = { x = 1,\nb = { x = 2 }\nc = 3\n", "a = { x = 1"),
+            ("a = { x = 1,\nb = { x = 2 }\n[c]\n", "a = { x = 1"),
+            ("a = {\n  x = 1,\n  y = 2,\n", "a = {\n  x = 1,\n  y = 2"),
+        ] {
+            let (fault, _) = unclosed(text).expect(text);
+            assert_eq!(fault.related[0].0.end, behind.len(), "{text}");
         }
         for text in [
             "a = [1, 2]\n[b]\nc = { x = 1 }\n[[d.e]]\nf = 1",

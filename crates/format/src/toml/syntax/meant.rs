@@ -328,6 +328,13 @@ impl<'a> Stop<'a> {
         }
         let written = self.text[line_of(self.span.start, self.text)].trim();
         let (key, help) = match written.split_once(':') {
+            // Blocks by indentation, as YAML has them.
+            Some((key, "")) if !key.contains(['"', '\'', '=', '#']) => (
+                key.trim(),
+                say!(
+                    "tables have headers in brackets, as in [input.x], and their keys stand below, as in value = 1: indentation makes none"
+                ),
+            ),
             Some((key, value)) if !key.contains(['"', '\'', '=', '#']) => {
                 let (key, value) = (key.trim(), in_quotes(value.trim()));
                 (key, say!("write an equals sign: {key} = {value}"))

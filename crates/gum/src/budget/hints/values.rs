@@ -28,6 +28,12 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
                 "it is a line above the first header in brackets: {key} = \"…\""
             ));
         }
+        ("dof", _)
+            if ["infinite", "infinity", "∞", "无穷", "无穷大"]
+                .contains(&number.to_lowercase().as_str()) =>
+        {
+            return Some(say!("write {key} = inf"));
+        }
         ("between", _) if !number.contains(',') => {
             return Some(say!(
                 "two names are wanted: between = [\"{number}\", \"…\"]"

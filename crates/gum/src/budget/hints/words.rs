@@ -1,9 +1,14 @@
 //! Words that people try for keys.
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 146] = [
+pub const SYNONYMS: [(&str, &str); 152] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
+    ("semi_range", "half_width"),
+    ("semirange", "half_width"),
+    ("half_range", "half_width"),
+    ("half_interval", "half_width"),
+    ("semi_width", "half_width"),
     ("tolerance", "half_width"),
     ("tolerance", "conformity"),
     ("tolerances", "conformity"),
@@ -79,6 +84,7 @@ pub const SYNONYMS: [(&str, &str); 146] = [
     ("ilac_g8:09/2019", "ILAC-G8"),
     ("标题", "title"),
     ("被测量", "measurand"),
+    ("测量", "measurand"),
     ("测量结果", "measurand"),
     ("输出量", "measurand"),
     ("output", "measurand"),

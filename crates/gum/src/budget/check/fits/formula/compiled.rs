@@ -131,7 +131,8 @@ impl Checker<'_> {
             }
             Place::Symbol(_) | Place::Entry(_) => left.key.clone(),
             Place::Shared | Place::Measurand(_) => {
-                return self.in_formula(of_the_fit(fault, left.name), Some(formula.text));
+                let own = of_the_fit(fault, formula.fit.name, left.name);
+                return self.in_formula(own, Some(formula.text));
             }
         };
         fault.moved(|_| span.clone())
@@ -240,11 +241,12 @@ fn without_start(missing: &[&str], text: &Stated<String>) -> Fault {
 }
 
 /// A fault of the formula in the words of a fit: its left side is a column, not a measurand.
-fn of_the_fit(fault: Fault, column: &str) -> Fault {
+fn of_the_fit(fault: Fault, fit: &str, column: &str) -> Fault {
     let own = Wording {
         measurand: say!("the column {column}"),
         unit: say!("the unit of the column {column}"),
         given: say!("a column, parameter or constant"),
+        stated: say!("below [fit.{fit}.parameters]"),
     };
     reworded(fault, &own)
 }

@@ -85,13 +85,13 @@ fn what_one_operator_makes_of_one_part_is_a_combination() {
     assert_eq!(variant["label"], "part p3, operator Li", "{found}");
 }
 
-/// Four flow meters of forty rows each, with errors by the meter and the deviation of the temperature from 20 °C.
+/// Four flow meters of forty rows each, with errors by the meter and the deviation of the temperature from its mean.
 fn flow_meters(seed: u64, error: impl Fn(u32, f64) -> f64) -> String {
     let mut noise = Noise(seed);
     let mut rows = "q [l/min],f [Hz],water [°C],meter\n".to_owned();
     for row in 0..160 {
         let (meter, flow) = (row / 40, 5.0 + f64::from(7 * row % 40));
-        let warm = 3.0 * libm::sin(f64::from(row * row % 97));
+        let warm = 3.0 * libm::sin(std::f64::consts::TAU * f64::from(7 * row % 160) / 160.0);
         let shown = 20.0 * flow + error(meter, warm) + 0.4 * noise.normal();
         let _ = writeln!(rows, "{flow},{shown:.3},{:.3},M{}", 20.0 + warm, meter + 1);
     }

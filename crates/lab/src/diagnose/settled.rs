@@ -31,7 +31,7 @@ pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
     };
     let fit = fit::near(design, Weights::of(&claimed.u), rough.unknowns.clone())?;
     let claimed = match claimed.is_estimated() {
-        true => estimated(design, &fit),
+        true => exact(design, &fit).unwrap_or_else(|| estimated(design, &fit)),
         false => {
             let rounded = noise_rounding::certain(design, &fit, claimed.before_rounding());
             claimed.rounded(rounded)
@@ -110,9 +110,6 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
 /// The noise that a model leaves, where it grows with the reading or differs from label to label.
 pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut claimed = estimated(design, fit);
-    if !claimed.is_estimated() {
-        return claimed;
-    }
     let unknowns = paid_for(design, fit);
     let blocks = design.blocks.len();
     let mut draws = vec![claimed.u.clone(); DRAWS];
@@ -247,9 +244,6 @@ fn hat_trace(design: &Design<'_>, fit: &Fit, u: &DVector<f64>) -> Option<f64> {
 
 /// One standard uncertainty for each response, from the residuals.
 fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
-    if let Some(exact) = exact(design, fit) {
-        return exact;
-    }
     let mut u = each_response(design, fit, paid_for(design, fit));
     let blocks = design.blocks.len();
     let counts = counts(design.case);
@@ -263,7 +257,7 @@ fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
     Claimed::plain(u, 0.0, Origin::Estimated)
 }
 
-/// The noise of a recording of which the model meets every reading: nothing but the rounding of doubles, of the reading and of each
+/// The noise of a recording of which the declared model meets every reading: nothing but the rounding of doubles, of the reading and of each
 /// term of the model, which is rounded as a product and in a sum.
 fn exact(design: &Design<'_>, fit: &Fit) -> Option<Claimed> {
     let blocks = design.blocks.len();

@@ -293,7 +293,7 @@ def test_an_empty_table_has_the_columns_of_one_with_rows(tmp_path):
 
 
 def test_large_whole_numbers_and_dates():
-    budget = '[measurand.y]\nmodel = "x"\n[input]\nx = { value = 1, u = "1 %" }\n'
+    budget = '[measurand.y]\nmodel = "x"\n[input]\nx = { value = 1, u = 0.01, relative = true }\n'
     found = gumption.batch(budget, {"x": [2**63, 2**64 - 1, -(2**70)]})
     assert found["error"] == ["", "", ""] and list(found["y"]) == [2.0**63, 2.0**64, -(2.0**70)]
     assert list(gumption.batch(budget, {"x": np.array([2**63], np.uint64)})["y"]) == [2.0**63]

@@ -16,6 +16,11 @@ from gumption import correlated, covariance, quantity
 def test_what_is_common_cancels():
     x = quantity(2.0, 0.1)
     assert (x - x).u == 0 and (x / x).y == 1
+    for at in range(1, 60):
+        x = quantity(at / 7, 0.01)
+        for formula, wanted in ((x / x, 1.0), (x / (x + x), 0.5), (np.sin(x) / np.sin(x), 1.0)):
+            gum = gumption.evaluate(formula.budget(), monte_carlo=False)["y"].gum
+            assert (gum.estimate, gum.standard_uncertainty) == (wanted, 0.0), formula.budget()
 
 
 def test_digits_that_are_shown():

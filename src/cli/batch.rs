@@ -170,12 +170,13 @@ impl Work<'_> {
         }
     }
 
-    /// Evaluates the rows: `add` makes of each what is wanted of it, `take` gets that of some and writes it.
+    /// Evaluates the rows: `add` makes of each what is wanted of it, `take` gets that of some and writes it. Gives the heads of the
+    /// columns that are kept.
     fn each<T: Default + Send>(
         self,
         add: impl Fn(&mut T, &Lot<'_>) + Sync,
         mut take: impl FnMut(T) -> Result<(), Said>,
-    ) -> Result<(), Outcome> {
+    ) -> Result<Vec<String>, Outcome> {
         let Work {
             file,
             source,
@@ -206,8 +207,8 @@ impl Work<'_> {
             }
         };
         drop(steps);
-        ended.map_err(|rejection| output::refused(&rejection, args.lang))?;
-        trouble.map_or(Ok(()), |why| Err(output::complain(why)))
+        let kept = ended.map_err(|rejection| output::refused(&rejection, args.lang))?;
+        trouble.map_or(Ok(kept), |why| Err(output::complain(why)))
     }
 }
 
@@ -216,7 +217,8 @@ fn written(work: Work<'_>, mut sink: Sink) -> Result<Count, Outcome> {
     let columns = work.columns();
     let mut table = Table::of(columns, work.file);
     let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
-    work.each(add, |lines| sink.add(&table.add(lines)))?;
+    let kept = work.each(add, |lines| sink.add(&table.add(lines)))?;
+    table.keep(kept);
     let (left, count) = table.end();
     let done = sink.add(&left).and_then(|()| sink.finish());
     done.map(|()| count).map_err(output::complain)

@@ -128,7 +128,7 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
     };
     let mut results = Table::of(columns, &file);
     let mut out = Vec::new();
-    batch::run(
+    let kept = batch::run(
         &file,
         (table.as_bytes(), "table.csv"),
         plan,
@@ -138,6 +138,7 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
             ControlFlow::Continue(())
         },
     )?;
+    results.keep(kept);
     let (left, count) = results.end();
     out.extend(left);
     Ok((String::from_utf8(out).expect("text"), count))
@@ -151,7 +152,7 @@ fn in_columns(
     wanted: Columns,
 ) -> (Vec<(String, ResultColumn)>, Count) {
     let mut results = Results::of(wanted, file);
-    batch::run_columns(
+    let kept = batch::run_columns(
         file,
         ([Ok(table)], "table"),
         plan,
@@ -162,6 +163,7 @@ fn in_columns(
         },
     )
     .expect("a batch");
+    results.keep(kept);
     results.end()
 }
 
@@ -624,7 +626,7 @@ fn rows_of_a_table_are_as_if_each_were_alone_over_the_library() {
                     ControlFlow::Continue(())
                 },
             )
-            .map(|()| String::from_utf8(out).expect("text"))
+            .map(|_| String::from_utf8(out).expect("text"))
         };
         let rows: Vec<String> = (0..6).map(row).collect();
         let Ok(together) = table(&rows) else {
@@ -656,6 +658,9 @@ fn columns_that_are_kept_go_through() {
     let (found, count) = run(&budget, &table, &keeping).expect("a batch");
     assert_eq!((count.rows, count.failed), (3, 1), "{found}");
     assert!(found.starts_with("label,Date [d],type,I [mA],"), "{found}");
+    // So they are where there are no rows.
+    let (none, _) = run(&budget, &format!("{heads}\n"), &keeping).expect("a batch");
+    assert_eq!(none.lines().next(), found.lines().next());
     let plain = "label,R [kohm]\na,0.1\nb,-\nc,0.2\n";
     let (alone, _) = run(&budget, plain, &plan(None, 1)).expect("a batch");
     let kept = ["2026-01-02,\"A, new\"", ",B", "x,A"];
@@ -686,6 +691,12 @@ fn columns_that_are_kept_go_through() {
     keeping.keep.remove(0);
     let (found, _) = in_columns(&file, &in_memory, &keeping, columns);
     assert_eq!(found[1], ("type".into(), ResultColumn::Texts(Some(types))));
+    let empty = ["R [kohm]", "type"].map(|name| (name.to_owned(), Cells::Texts(Vec::new())));
+    let empty = gumption::csv::Columns::new(empty.into()).expect("a table");
+    let (none, _) = in_columns(&file, &empty, &keeping, columns);
+    let heads = |all: &[(String, ResultColumn)]| all.iter().map(|(head, _)| head.clone()).collect();
+    let [found, none]: [Vec<String>; 2] = [heads(&found), heads(&none)];
+    assert_eq!(found, none);
 
     let refusal = |keep: &str| {
         let mut plan = plan(None, 1);

@@ -159,6 +159,10 @@ pub(crate) fn read_columns(
     let refused = |faults| Rejection::new(name, &text, faults);
     let head = Sheet::new(&text).map_err(|fault| refused(vec![*fault]))?;
     let layout = layout(&head, wanted).map_err(refused)?;
+    let is_number = |at| layout.numbers().any(|one| one == at);
+    if let Some(doubt) = csv::mean_of_columns(columns, &head, is_number) {
+        return Err(refused(vec![doubt]));
+    }
     let mut results = Results::of(&layout);
     let rows = (0..columns.rows()).map(|at| columns.row(at)).map(Ok);
     // What is wrong with a row stands in no text.

@@ -49,7 +49,7 @@ pub struct Plan {
 
 /// Evaluates the rows of a table, piece by piece. `add` makes of rows what is wanted of them, on any thread, and adds it to
 /// that of the rows before them; `take` gets what some rows have given, in their order, with the number of bytes that were
-/// read, and may end the work.
+/// read, and may end the work. Gives the heads of the columns that are kept.
 ///
 /// # Errors
 /// The table cannot be read, one of its columns is no place of the budget, or the budget has faults of its own that no row
@@ -60,7 +60,7 @@ pub fn run<T: Default + Send>(
     plan: &Plan,
     add: impl Fn(&mut T, &Lot<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
-) -> Result<(), Rejection> {
+) -> Result<Vec<String>, Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
     let mut pieces = Pieces::new(source);
     let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
@@ -82,7 +82,7 @@ pub fn run<T: Default + Send>(
         let read = pieces.bytes_read();
         more = work(&head.below(&piece.text, piece.line), read)?;
     }
-    Ok(())
+    Ok(run.kept)
 }
 
 /// As [`run`], of a table whose rows come as columns, piece by piece, all with the same heads; `take` gets the number of rows
@@ -99,13 +99,16 @@ pub fn run_columns<'c, T: Default + Send>(
     plan: &Plan,
     add: impl Fn(&mut T, &Lot<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
-) -> Result<(), Rejection> {
+) -> Result<Vec<String>, Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
     let mut pieces = pieces.into_iter();
     let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
     let head = first.borrow().head();
     let sheet = Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
     let batch = file.batch(&sheet, table, &plan.keep)?;
+    if let Some(fault) = batch.mean_of(first.borrow(), &sheet) {
+        return Err(Rejection::new(table, &head, vec![fault]));
+    }
     let mut run = Run::new(&batch, plan, &sheet);
     for piece in once(Ok(first)).chain(pieces) {
         let piece = piece.map_err(refused)?;
@@ -122,11 +125,11 @@ pub fn run_columns<'c, T: Default + Send>(
             let done = run.number + rows.len() as u64;
             let parts = parts.map(part).collect();
             if !run.evaluate(&sheet, parts, &add, |part| take(part, done)) {
-                return Ok(());
+                return Ok(run.kept);
             }
         }
     }
-    Ok(())
+    Ok(run.kept)
 }
 
 /// The fault of a table without a line of names.

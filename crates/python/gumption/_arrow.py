@@ -47,8 +47,8 @@ def columns(rows: Any) -> list[tuple[str, Any]]:
     """The columns of a record batch or a table: arrays where they are doubles, else lists."""
     nanoarrow = _nanoarrow()
     stream = nanoarrow.c_array_stream(rows)
-    if views := [field.name for field in stream.get_schema().children if _has_views(field)]:
-        return _read_by_pyarrow(stream, views)
+    if unread := [field.name for field in stream.get_schema().children if _is_unread(field)]:
+        return _read_by_pyarrow(stream, unread)
     array = nanoarrow.Array(stream)
     missing = nanoarrow.nulls_as_sentinel()
 
@@ -60,18 +60,20 @@ def columns(rows: Any) -> list[tuple[str, Any]]:
     return [(field.name, column(field, child)) for field, child in children]
 
 
-def _has_views(schema: Any) -> bool:
-    """Whether there are texts by views, which nanoarrow takes and does not read: the process ends."""
+def _is_unread(schema: Any) -> bool:
+    """Whether there are texts by views, which nanoarrow takes and does not read (the process ends), or values by the length of
+    their runs."""
     inner = [*schema.children, *([schema.dictionary] if schema.dictionary else [])]
-    return schema.format in ("vu", "vz") or any(map(_has_views, inner))
+    return schema.format in ("vu", "vz", "+r") or any(map(_is_unread, inner))
 
 
-def _read_by_pyarrow(stream: Any, views: list[str]) -> list[tuple[str, Any]]:
+def _read_by_pyarrow(stream: Any, unread: list[str]) -> list[tuple[str, Any]]:
     try:
         import pyarrow  # type: ignore[import-untyped]
     except ImportError as missing:
         raise TypeError(
-            f"the column {views[0]} has texts by views (string_view), which take the package pyarrow: pip install pyarrow, or make them plain texts"
+            f"the column {unread[0]} has texts by views (string_view) or values by runs (run_end_encoded), which take the package pyarrow: "
+            "pip install pyarrow, or make it a plain column"
         ) from missing
     table = pyarrow.RecordBatchReader.from_stream(stream).read_all()
 

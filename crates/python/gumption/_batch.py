@@ -10,7 +10,7 @@ from typing import Any, Literal
 from . import _arrow, _engine, _table
 from ._commands import Progress, settings
 from ._faults import typed
-from ._given import Contents, Given, flag, several, source
+from ._given import Contents, Given, Whole, flag, several, source
 from ._result import Language
 from ._table import Table
 
@@ -24,13 +24,13 @@ def batch(
     files: Contents | None = None,
     profile: str | None = None,
     monte_carlo: bool = False,
-    trials: int | Literal["adaptive"] | None = None,
-    seed: int | None = None,
+    trials: Whole | Literal["adaptive"] | None = None,
+    seed: Whole | None = None,
     quasi_random: bool = False,
     shares: bool = False,
     contributions: bool = False,
     keep: str | Sequence[str] = (),
-    threads: int | None = None,
+    threads: Whole | None = None,
     progress: Progress = None,
     language: Language = "en",
 ) -> Any:
@@ -58,7 +58,7 @@ def batch(
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
         more=(shares, contributions),
-        keep=several(keep),
+        keep=several("keep", keep),
         progress=progress,
         language=language,
     )
@@ -66,7 +66,7 @@ def batch(
         return {"rows": rows, "failed": failed}
     labels = columns["label"] or [""] * rows
     columns["label"] = [label or str(at) for at, label in enumerate(labels, 1)]
-    return _table.like(table, columns, rows, several(keep))
+    return _table.like(table, columns, rows, several("keep", keep))
 
 
 _NO_CSV = {".parquet", ".xlsx", ".xls", ".json", ".feather", ".arrow"}
@@ -80,13 +80,13 @@ def arrow_batch(
     files: Contents | None = None,
     profile: str | None = None,
     monte_carlo: bool = False,
-    trials: int | Literal["adaptive"] | None = None,
-    seed: int | None = None,
+    trials: Whole | Literal["adaptive"] | None = None,
+    seed: Whole | None = None,
     quasi_random: bool = False,
     shares: bool = False,
     contributions: bool = False,
     keep: str | Sequence[str] = (),
-    threads: int = 1,
+    threads: Whole = 1,
     language: Language = "en",
 ) -> _arrow.RecordBatch:
     """Evaluates a budget for every row of a record batch, or of a table, of Arrow; gives a record batch with as many rows in
@@ -101,6 +101,8 @@ def arrow_batch(
     Columns of doubles are taken as they lie in memory; labels, and columns that are kept, are given as texts. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
     as engines have workers of their own. Needs the package ``nanoarrow``.
     """
+    if not _arrow.is_of(rows):
+        raise TypeError(f"rows: what has the interface of Arrow is needed, not {type(rows).__name__}; batch takes other tables, too")
     columns = _table.of_arrow(rows)
     found, count, _ = evaluated(
         budget,
@@ -108,7 +110,7 @@ def arrow_batch(
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
         more=(shares, contributions),
-        keep=several(keep),
+        keep=several("keep", keep),
         language=language,
     )
     assert found is not None

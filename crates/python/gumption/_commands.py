@@ -10,7 +10,7 @@ from typing import Any, Literal, Union, overload
 
 from . import _engine, _table
 from ._faults import typed
-from ._given import Contents, Given, flag, several, sheet, source, whole
+from ._given import Contents, Given, Whole, flag, several, sheet, source, whole
 from ._result import Language, Result
 from ._table import Table
 
@@ -26,12 +26,12 @@ def evaluate(
     *,
     files: Contents | None = None,
     profile: str | None = None,
-    trials: int | Literal["adaptive"] | None = None,
-    seed: int | None = None,
+    trials: Whole | Literal["adaptive"] | None = None,
+    seed: Whole | None = None,
     monte_carlo: bool = True,
     quasi_random: bool = False,
     indices: bool = False,
-    threads: int | None = None,
+    threads: Whole | None = None,
     progress: Progress = None,
     language: Language = "en",
 ) -> Result:
@@ -51,11 +51,11 @@ def evaluate(
 def settings(
     profile: str | None,
     monte_carlo: bool,
-    trials: int | Literal["adaptive"] | None,
-    seed: int | None,
+    trials: Whole | Literal["adaptive"] | None,
+    seed: Whole | None,
     quasi_random: bool,
     indices: bool,
-    threads: int | None,
+    threads: Whole | None,
 ) -> dict[str, Any]:
     """What the engine is asked for in place of what a file says."""
     if isinstance(trials, str) and trials != "adaptive":
@@ -118,6 +118,9 @@ def calibrate(
     the share that is done.
     """
     if recordings is None:
+        idle = {"shares": shares or None, "progress": progress}
+        if told := [name for name, one in idle.items() if one is not None]:
+            raise ValueError(f"{', '.join(told)}: of use with recordings only")
         with typed():
             return Result(_engine.calibrate(source(experiment, files), language), language)
     if isinstance(recordings, Mapping):
@@ -129,6 +132,8 @@ def calibrate(
         faulty, given = {}, [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
         if hasattr(recordings, "columns") or not all(isinstance(one, (str, os.PathLike)) for one in given):
             raise TypeError('recordings: files or folders, or a dict of names with frames, such as {"17": frame}')
+        if any("\n" in os.fspath(one) for one in given):
+            raise ValueError('recordings: a text has a name, {"17": text}')
         listed = _engine.recordings_of(given, language)
         place = source(experiment, files)
         if place["files"] is not None:
@@ -155,6 +160,8 @@ def _recordings(given: Mapping[Any, _table.Given]) -> tuple[dict[str, str | byte
 
 def _recording(given: _table.Given) -> str | bytes:
     """The text of a recording."""
+    if isinstance(given, (str, bytes)) and not given:
+        raise ValueError("it is empty: a recording has a line of names and rows of numbers")
     if isinstance(given, bytes) or (isinstance(given, str) and "\n" in given):
         return given
     return Path(given).read_bytes() if isinstance(given, (str, os.PathLike)) else _table.written(given)
@@ -167,7 +174,7 @@ def fleet(
     date: str | None = None,
     device: str | None = None,
     reference: str | Sequence[str] = (),
-    threads: int | None = None,
+    threads: Whole | None = None,
     language: Language = "en",
 ) -> Result:
     """Says what many results say together: scatter against u, E_n, drift between calibrations, what dominates.
@@ -181,10 +188,10 @@ def fleet(
         if one is not None and not isinstance(one, str):
             raise TypeError(f"{name}: the name of a column is needed, not {one!r}")
     wanted = {
-        "by": several(by),
+        "by": several("by", by),
         "date": date,
         "device": device,
-        "references": several(reference),
+        "references": several("reference", reference),
         "threads": _optional("threads", threads, 1),
     }
     with typed():
@@ -207,23 +214,24 @@ def diagnose(
     experiment: Given,
     *,
     files: Contents | None = None,
-    seed: int | None = None,
-    why: str | None = None,
+    seed: Whole | None = None,
+    why: str | Sequence[str] = (),
     progress: Progress = None,
     language: Language = "en",
 ) -> Result:
     """Holds a recording against its declared model, and says what was left out.
 
-    ``why`` is an effect, by its identifier or words of its name, or ``"all"``: the result then says why it is not the answer.
+    ``why`` is an effect, by its identifier or words of its name, several of them, or ``"all"``: the result then says why these are
+    not the answer.
     ``progress`` is told the share that is done; ``result.files()`` has the improved experiment.
     """
     with typed():
-        seeded = _optional("seed", seed)
-        return Result(_engine.diagnose(source(experiment, files), seeded, why, progress, language), language)
+        wanted = _optional("seed", seed), several("why", why)
+        return Result(_engine.diagnose(source(experiment, files), *wanted, progress, language), language)
 
 
 def simulate(
-    experiment: Given, *, files: Contents | None = None, seed: int = 1, language: Language = "en"
+    experiment: Given, *, files: Contents | None = None, seed: Whole = 1, language: Language = "en"
 ) -> str:
     """The recording that an experiment predicts, as CSV."""
     with typed():

@@ -18,6 +18,7 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
+from . import _engine
 from . import _units as units
 from ._commands import evaluate
 from ._digits import estimate, figure, rounded, short
@@ -25,8 +26,11 @@ from ._faults import Refused
 from ._result import Measurand, Result
 from ._units import Units
 
-Operand = Union["Quantity", float, Decimal, Fraction]
+Operand = Union["Quantity", float, Decimal, Fraction, "np.integer[Any]", "np.floating[Any]"]
 """What arithmetic takes beside numbers of ``uncertainties`` and ``GTC``, which say nothing to a checker of types."""
+
+Known = Union[float, str, Decimal, Fraction, "np.integer[Any]", "np.floating[Any]", None]
+"""What is stated of a quantity: a number, in its unit; a text, with a unit of its own; or nothing."""
 
 _DIGITS_OF_U = re.compile(r"(?:\.([1-9]))?u(S?)|(S)")
 """So many digits of u, and whether they stand in brackets, as the package ``uncertainties`` writes it."""
@@ -166,7 +170,13 @@ class Quantity(Lasting):
         """The same quantity, in another unit: a temperature in °C is a thermodynamic one in K."""
         _known(unit)
         target = units.of(unit)
-        is_leaving = units.interval(self._units) is not None and units.interval(target) is None
+        is_point, becomes_point = (units.interval(one) is not None for one in (self._units, target))
+        if becomes_point and not is_point:
+            raise ValueError(
+                f"what is in {units.written(self._units)} may be a difference, which {unit} is not: a thermodynamic temperature x in K is "
+                "quantity(0, unit='°C') + (x - quantity(273.15, unit='K')), a difference is added to a temperature"
+            )
+        is_leaving = is_point and not becomes_point
         return Quantity("kelvin({})" if is_leaving else "{}", (self,), unit=target)
 
     def budget(self) -> dict[str, Any]:
@@ -241,9 +251,24 @@ class Quantity(Lasting):
         if any(isinstance(one, np.ndarray) and one.ndim for one in given):
             _refuse_masked(*given)
             arrays = np.broadcast_arrays(*(np.asarray(one, dtype=object) for one in given))
-            flat = [_formed(ufunc.__name__, *ones) for ones in zip(*(array.flat for array in arrays))]
+            flat = [_element(ufunc.__name__, *ones) for ones in zip(*(array.flat for array in arrays))]
             return np.array(flat, dtype=object).reshape(arrays[0].shape)
-        return _formed(ufunc.__name__, *given)
+        # An array without dimensions is what stands in it.
+        return _formed(ufunc.__name__, *(one[()] if isinstance(one, np.ndarray) else one for one in given))
+
+    def arctan2(self, other: Operand) -> Quantity:
+        """NumPy calls it for the elements of an array, as those below."""
+        return _element("arctan2", self, other)
+
+    def hypot(self, other: Operand) -> Quantity:
+        """The root of the sum of both squares."""
+        return _element("hypot", self, other)
+
+    def __floor__(self) -> Quantity:
+        return _formed("floor", self)
+
+    def __ceil__(self) -> Quantity:
+        return _formed("ceil", self)
 
     def __repr__(self) -> str:
         """The estimate to the digits that three digits of u leave it."""
@@ -336,6 +361,9 @@ _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
     "hypot": ("hypot({}, {})", units.alike),
     "conjugate": ("{}", units.alike),
     "exp2": ("2 ^ {}", units.none),
+    "fabs": ("abs({})", units.alike),
+    "fmax": ("max({}, {})", units.alike),
+    "fmin": ("min({}, {})", units.alike),
     # exp(x) - 1 and ln(1 + x) without the digits that the difference would lose.
     "expm1": ("2 * exp(0.5 * {0}) * sinh(0.5 * {0})", units.none),
     "float_power": ("{} ^ {}", units.power),
@@ -368,28 +396,25 @@ for _name, (_written, _) in _OPERATIONS.items():
 
 
 def quantity(
-    value: Any = None, u: float | str | None = None, unit: str | None = None, *, name: str | None = None, **known: Any
+    value: Any = None, u: Known = None, unit: str | None = None, *, name: str | None = None, **known: Any
 ) -> Quantity:
     """A quantity of which something is known.
 
     ``u`` is its standard uncertainty; ``quantity("5 V", 0.01)`` has its unit with the value; anything else is said as in an
     input of a budget file: ``half_width=0.1``, ``dof=9``, ``readings=[…]`` (without ``value``), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
-    A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so. ``name`` is what
-    reports call it.
+    A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so, and takes a ``unit``
+    and nothing else. ``name`` is what reports call it.
     """
-    if hasattr(value, "nominal_value"):
-        from ._uncertainties import from_uncertainties
-
-        return from_uncertainties(value)
-    if type(value).__module__.partition(".")[0] == "GTC":
-        from ._gtc import from_gtc
-
-        return from_gtc(value)
+    taken = _of_another_package(value)
+    if taken is not None:
+        if idle := [key for key, one in {"u": u, "name": name, **known}.items() if one is not None]:
+            raise TypeError(f"{', '.join(idle)}: a number of another package says by itself what is known of it; beside it stands unit alone")
+        return taken if unit is None else in_unit(taken, unit)
     if name is not None and not (isinstance(name, str) and name.isidentifier()):
         raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
     if isinstance(value, str) and unit is None:
         # "5 V" says its unit, in which a number for u is, too.
-        unit = value.strip().partition(" ")[2].strip() or None
+        unit = _engine.unit_of(value)
     # What can be seen at once is told at once, and not where a figure is asked for.
     for what, number in (("value", value), ("u", u)):
         if isinstance(number, numbers.Real) and not math.isfinite(number):
@@ -416,8 +441,18 @@ def _checked(known: dict[str, Any], name: str) -> None:
     """Raises ``Refused`` where this cannot be known of an input."""
     # What is exact is that beside an uncertainty, too.
     known = {"u": 1, **known} if _is_exact(known) else known
-    budget = {"measurand": {"y": {"model": name, "unit": known["unit"]}}, "input": {name: known}}
-    evaluate(budget, monte_carlo=False)
+    budget = {"measurand": {_output([name]): {"model": name, "unit": known["unit"]}}, "input": {name: known}}
+    found = len(evaluate(budget, monte_carlo=False).measurands)
+    if found != 1:
+        raise TypeError(
+            f"these are {found} quantities, and a quantity is one: make each of them, [quantity(value, u) for value in values], or all, "
+            "correlated(values, u, correlation)"
+        )
+
+
+def _output(names: Collection[str]) -> str:
+    """A name for a measurand beside these."""
+    return next(_free("y", names)) if "y" in names else "y"
 
 
 def _is_exact(known: Mapping[str, Any]) -> bool:
@@ -436,6 +471,15 @@ def as_number(one: Quantity) -> Quantity:
     if between:
         return (one - quantity(0, unit=units.written(one._units))) / quantity(1, unit=between)
     return one / quantity(1, unit=units.written(one._units)) if one._units else one
+
+
+def in_unit(number: Quantity, unit: str) -> Quantity:
+    """The quantity that has this number in a unit."""
+    _known(unit)
+    between = units.interval(units.of(unit))
+    if between:
+        return quantity(0, unit=unit) + number * quantity(1, unit=between)
+    return number * quantity(1, unit=unit)
 
 
 def correlated(
@@ -472,6 +516,15 @@ def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
     if len(quantities) == 1:
         return np.array([[result.measurands[0].gum.standard_uncertainty ** 2]])
     return np.array(result.joint.covariance, dtype=float)
+
+
+def _element(operation: str, *given: Any) -> Quantity:
+    """As ``_formed``, of elements of arrays, for which nothing else may know what to do."""
+    formed = _formed(operation, *given)
+    if formed is NotImplemented:
+        wrong = next(one for one in map(_taken, given) if not isinstance(one, (Quantity, numbers.Real)))
+        raise TypeError(f"{wrong!r} ({type(wrong).__name__}) is no number, and stands in no formula of quantities")
+    return formed
 
 
 def _formed(operation: str, *given: Any) -> Quantity:
@@ -524,10 +577,20 @@ def _taken(one: Any) -> Any:
     """What arithmetic takes as a quantity or a number: uncertain numbers of other packages, and decimals, too."""
     if isinstance(one, (Quantity, numbers.Real)):
         return one
-    if isinstance(one, Decimal):
-        return float(one)
-    is_uncertain = hasattr(one, "nominal_value") or type(one).__module__.partition(".")[0] == "GTC"
-    return quantity(one) if is_uncertain else one
+    return float(one) if isinstance(one, Decimal) else _of_another_package(one) or one
+
+
+def _of_another_package(number: Any) -> Quantity | None:
+    """The quantity of an uncertain number of another package; nothing of anything else."""
+    if hasattr(number, "nominal_value"):
+        from ._uncertainties import from_uncertainties
+
+        return from_uncertainties(number)
+    if type(number).__module__.partition(".")[0] == "GTC":
+        from ._gtc import from_gtc
+
+        return from_gtc(number)
+    return None
 
 
 def _number(value: float) -> str:
@@ -596,10 +659,11 @@ def _budget(quantities: list[Quantity]) -> dict[str, Any]:
         doubt, unit = next(_free("nothing", names.values())), quantities[0]._units
         stated = {doubt: {"value": 0, "u": 1, "unit": units.interval(unit) or units.written(unit)}}
         nothing = f" + 0 * {doubt}"
-    of_one = len(quantities) == 1 and "y" not in names.values()
+    taken = names.values()
+    outputs = [_output(taken)] if len(quantities) == 1 else _free("y", taken)
     measurands = {
         output: {"model": names[one] + nothing, "unit": units.written(one._units)}
-        for output, one in zip(["y"] if of_one else _free("y", names.values()), quantities)
+        for output, one in zip(outputs, quantities)
     }
     groups = {id(one._joint): one._joint for one in inputs if one._joint is not None}
     tables = [group.table(inputs) for group in groups.values()]

@@ -43,7 +43,9 @@ class Record:
         try:
             return _wrapped(self._fields[name])
         except KeyError:
-            raise AttributeError(f"there is no {name}; there are {', '.join(self._fields)}") from None
+            kinds = type(self).__mro__
+            symbols = [one for kind in kinds for one, held in vars(kind).items() if isinstance(held, property) and one[0] != "_"]
+            raise AttributeError(f"there is no {name}; there are {', '.join([*symbols, *self._fields])}") from None
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._fields]
@@ -134,6 +136,11 @@ class Row(Record):
         return {one["name"]: one for one in named}
 
 
+class SeveralRows(LookupError, AttributeError):
+    """One row is asked for, and there are several. What asks for an attribute that may be missing, as ``hasattr`` does, is told that
+    it is."""
+
+
 class Result:
     """What a command found.
 
@@ -154,29 +161,28 @@ class Result:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        return getattr(self._only, name)
+        return getattr(self._only(), name)
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.rows[0].to_dict()]
 
     def __getitem__(self, name: str) -> Any:
         """A measurand of a budget, or a coefficient of a calibration, by its name."""
-        return self._only[name]
+        return self._only()[name]
 
     def __contains__(self, name: object) -> bool:
         """Whether there is a measurand or a coefficient of this name."""
         return name in self.rows[0]
 
-    @property
     def _only(self) -> Row:
         if len(self.rows) > 1:
-            raise LookupError(f"there are {len(self.rows)} rows: take one of `rows`")
+            raise SeveralRows(f"there are {len(self.rows)} rows: take one of `rows`")
         return self.rows[0]
 
     @property
     def statement(self) -> str:
         """The sentences for the certificate."""
-        return "\n".join(self._only.statement.to_dict()[self._language])
+        return "\n".join(self._only().statement.to_dict()[self._language])
 
     def samples(self, trials: int = 1_000_000, row: int = 0) -> dict[str, np.ndarray]:
         """Values of every measurand in trials of the Monte Carlo method; the n-th of all are of one trial."""
@@ -221,7 +227,7 @@ class Result:
         """Writes the report in the format of the ending: ``.html``, ``.xlsx``, ``.md``, ``.json`` …
 
         A file that is there is replaced if gumption wrote it and nobody changed it since, or with ``replace``; otherwise
-        ``FileExistsError``.
+        ``FileExistsError``. A file that was read for the result is never overwritten (``OSError``).
         """
         self._made.save(path, language or self._language, flag("replace", replace))
 
@@ -291,8 +297,10 @@ def _of_groups(fleet: dict[str, Any]) -> Table:
     for measurand in fleet["measurands"]:
         for group, figures in zip(fleet["groups"], measurand["groups"]):
             line = {"measurand": measurand["name"], "unit": measurand["unit"], "rows": group["rows"]}
-            line |= {name: _wrapped(one) for name, one in figures.items() if not isinstance(one, (dict, list))}
+            # A group of one row has no consistency, and the same columns.
             consistency = figures["consistency"] or {}
+            numbers = {name: one for name, one in figures.items() if name != "consistency" and not isinstance(one, (dict, list))}
+            line |= {name: _wrapped(one) for name, one in numbers.items()}
             line |= {name: _wrapped(consistency.get(name)) for name in ("birge", "p_value")}
             # A group may be called as a figure is.
             own = [f"{name} (group)" if name in line else name for name in fleet["grouped_by"]]

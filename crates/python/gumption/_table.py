@@ -7,7 +7,7 @@ import html
 import importlib
 import io
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -31,11 +31,18 @@ class Table(dict[str, Any]):
 
     def to_pandas(self) -> Any:
         """The columns as a frame of pandas."""
-        return importlib.import_module("pandas").DataFrame(self)
+        pandas = importlib.import_module("pandas")
+        return pandas.DataFrame(self._typed(lambda _: pandas.Series([], dtype=str)))
 
     def to_polars(self) -> Any:
         """The columns as a frame of polars."""
-        return importlib.import_module("polars").DataFrame(dict(self))
+        polars = importlib.import_module("polars")
+        return polars.DataFrame(self._typed(lambda name: polars.Series(name, [], polars.String)))
+
+    def _typed(self, no_texts: Callable[[str], Any]) -> dict[str, Any]:
+        """The columns, and one of texts for a list of nothing, of which no library can tell what it is of."""
+        is_empty = {name: isinstance(column, list) and not column for name, column in self.items()}
+        return {name: no_texts(name) if is_empty[name] else column for name, column in self.items()}
 
     def _repr_html_(self) -> str:
         rows = max((len(column) for column in self.values()), default=0)
@@ -181,9 +188,10 @@ def _columns(table: Any) -> list[tuple[str, Any]]:
 def _of_index(table: Any, names: list[Any]) -> list[tuple[str, Any]]:
     """Where a frame of pandas names its rows by its index, that is their label."""
     index = getattr(table, "index", None) if _library(table) == "pandas" else None
-    if index is None or "label" in names or index.nlevels != 1 or type(index).__name__ == "RangeIndex":
+    if index is None or "label" in names or type(index).__name__ == "RangeIndex":
         return []
-    return [("label", [_field(one) for one in index])]
+    # One of several levels has tuples.
+    return [("label", [" ".join(map(_field, one)) if index.nlevels > 1 else _field(one) for one in index])]
 
 
 def cells(column: Any) -> Any:

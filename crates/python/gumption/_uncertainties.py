@@ -32,6 +32,9 @@ class _Taken(NamedTuple):
 
 def from_uncertainties(number: UFloat) -> Quantity:
     """The quantity of a number: linear in those of its variables."""
+    for variable in number.derivatives:
+        if not np.isfinite(variable.std_dev):
+            raise ValueError(f"the std_dev of {variable.nominal_value} is {variable.std_dev}: a finite number is needed")
     derivatives = {variable: slope for variable, slope in number.derivatives.items() if variable.std_dev > 0}
     if not derivatives:
         return quantity(number.nominal_value)

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_format::csv;
-use gumption_format::files::write::{Replacing, Unwritten, Why};
-use gumption_format::files::{FileId, Files, Growing};
+use gumption_format::files::write::{Replacing, unread};
+use gumption_format::files::{Files, Growing, Ledger};
 use gumption_gum::batch::{self, Lot, Plan};
 use gumption_gum::budget::{BatchFile, Profile};
 use gumption_gum::propagate::Progress;
@@ -53,10 +53,10 @@ impl Rows<'_> {
         }
     }
 
-    fn on_disk(&self) -> Option<&Path> {
-        match self {
-            Rows::File(source) => source.on_disk(),
-            Rows::Columns(_) => None,
+    /// Notes the files of the disk that have been read, and the table itself.
+    fn note(&self, ledger: &Ledger) {
+        if let Some(source) = self.file() {
+            source.note(ledger);
         }
     }
 
@@ -66,7 +66,7 @@ impl Rows<'_> {
         plan: &Plan,
         add: impl Fn(&mut T, &Lot<'_>) + Sync,
         take: impl FnMut(T, u64) -> ControlFlow<()>,
-    ) -> Result<(), Rejection> {
+    ) -> Result<Vec<String>, Rejection> {
         match self {
             Rows::File(source) => source.with(|files, path| {
                 let name = path.display().to_string();
@@ -109,13 +109,6 @@ pub(crate) fn batch_of(
         progress: Progress::default(),
     };
     let rows = Rows::of(&mut table)?;
-    if let Some((path, _)) = &output {
-        let read = [source.on_disk(), rows.on_disk()];
-        if read.into_iter().flatten().any(|read| is_same(read, path)) {
-            let (path, why) = (path.clone(), Why::Read);
-            return Err(unwritten(Unwritten { path, why }, language));
-        }
-    }
     let (shares, contributions) = more;
     let batch = Batch {
         source: &source,
@@ -139,17 +132,12 @@ pub(crate) fn batch_of(
                 true => Replacing::Anything,
                 false => Replacing::Own,
             };
+            batch.require_unread(&path)?;
             let sink = Growing::begin(&path, replacing);
             let sink = sink.map_err(|why| unwritten(why, language))?;
-            batch.into_file(py, progress.as_ref(), sink)
+            batch.into_file(py, progress.as_ref(), (&path, sink))
         }
     }
-}
-
-/// Whether both are names of one file.
-fn is_same(one: &Path, other: &Path) -> bool {
-    let both = FileId::of(one).zip(FileId::of(other));
-    both.is_some_and(|(one, other)| one.is(&other))
 }
 
 /// A budget and the rows for which it is evaluated.
@@ -165,6 +153,14 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
+    /// Refuses to write what was read, or will be.
+    fn require_unread(&self, path: &Path) -> PyResult<()> {
+        let read = Ledger::default();
+        self.source.note(&read);
+        self.rows.note(&read);
+        unread(path, &read).map_err(|why| unwritten(why, self.language))
+    }
+
     /// Warns of what the columns do not say.
     fn warn(&self, py: Python<'_>) -> PyResult<()> {
         let caveat = self.source.with(|files, path| {
@@ -182,11 +178,12 @@ impl Batch<'_> {
             let file = BatchFile::open(files, path, self.profile)?;
             let mut results = Results::of(columns, &file);
             let add = |values: &mut Values, row: &Lot<'_>| columns.add_values(values, row);
-            self.rows.evaluate(&file, &self.plan, add, |values, done| {
+            let kept = self.rows.evaluate(&file, &self.plan, add, |values, done| {
                 self.read.store(done, Ordering::Relaxed);
                 results.add(values);
                 ControlFlow::Continue(())
             })?;
+            results.keep(kept);
             Ok(results)
         };
         let (found, count) = self.watched(py, progress, work)?.end();
@@ -208,7 +205,7 @@ impl Batch<'_> {
         self,
         py: Python<'_>,
         progress: Option<&Py<PyAny>>,
-        mut sink: Growing,
+        (path, mut sink): (&Path, Growing),
     ) -> PyResult<Evaluated> {
         let columns = self.columns;
         let mut trouble = None;
@@ -216,7 +213,7 @@ impl Batch<'_> {
             let file = BatchFile::open(files, path, self.profile)?;
             let mut results = Table::of(columns, &file);
             let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
-            self.rows.evaluate(&file, &self.plan, add, |lines, done| {
+            let kept = self.rows.evaluate(&file, &self.plan, add, |lines, done| {
                 self.read.store(done, Ordering::Relaxed);
                 match sink.add(&results.add(lines)) {
                     Ok(()) => ControlFlow::Continue(()),
@@ -226,9 +223,12 @@ impl Batch<'_> {
                     }
                 }
             })?;
+            results.keep(kept);
             Ok(results)
         };
         let (left, count) = self.watched(py, progress, work)?.end();
+        // Now it is known which files the budget names.
+        self.require_unread(path)?;
         let written = match trouble {
             Some(why) => Err(why),
             None => sink.add(&left).and_then(|()| sink.finish()),

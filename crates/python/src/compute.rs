@@ -10,7 +10,7 @@ use gumption_fault::{Rejection, of_system, say};
 use gumption_fleet as fleets;
 use gumption_format::csv;
 use gumption_format::document::Attachment;
-use gumption_format::files::Files;
+use gumption_format::files::{Files, Ledger};
 use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
 use gumption_gum::propagate::{self, EvaluatedRow, MonteCarloChoice, Options, Progress};
 use gumption_lab::calibrate::{self as calibrations, Campaign, Trouble};
@@ -157,7 +157,12 @@ pub(crate) fn evaluate(
         media_type: "application/toml",
         content,
     });
-    made(py, language, rows.map(|rows| What::Evaluation(rows, file)))
+    made(
+        py,
+        language,
+        &[&source],
+        rows.map(|rows| What::Evaluation(rows, file)),
+    )
 }
 
 /// Finds the coefficients of an experiment.
@@ -169,7 +174,7 @@ pub(crate) fn calibrate(py: Python<'_>, source: Source, language: &str) -> PyRes
         let found = calibrations::calibrate(&campaign).map_err(|why| troubled(&why, language))?;
         Ok(What::Calibration(Box::new(campaign), Box::new(found)))
     })?;
-    made(py, language, found)
+    made(py, language, &[&source], found)
 }
 
 /// The coefficients of each of many recordings of an experiment: a table (CSV) with a line each, and how many of them give none.
@@ -237,7 +242,8 @@ pub(crate) fn fleet(
         };
         Ok(What::Fleet(name, Box::new(found?)))
     })?;
-    made(py, language, found)
+    let file = rows.file();
+    made(py, language, file.as_slice(), found)
 }
 
 /// What a calibration or an experiment would tell, from its design.
@@ -263,7 +269,7 @@ pub(crate) fn plan(
             .map_err(|why| failed(&case, &why, language))?;
         Ok(What::Outlook(Box::new(case), Box::new(outlook)))
     })?;
-    made(py, language, found)
+    made(py, language, &[&source], found)
 }
 
 /// Holds a recording against its model.
@@ -272,7 +278,7 @@ pub(crate) fn diagnose(
     py: Python<'_>,
     source: Source,
     seed: Option<u64>,
-    why: Option<String>,
+    why: Vec<String>,
     progress: Option<Py<PyAny>>,
     language: &str,
 ) -> PyResult<Made> {
@@ -283,7 +289,7 @@ pub(crate) fn diagnose(
         if let Some(seed) = seed {
             case.settings.seed = seed;
         }
-        if let Some(words) = &why {
+        for words in &why {
             case.ask(words)
                 .map_err(|why| Unmade::NoResult(why.in_language(language), None))?;
         }
@@ -291,7 +297,7 @@ pub(crate) fn diagnose(
             .map_err(|why| failed(&case, &why, language))?;
         Ok(What::Diagnosis(Box::new(case), Box::new(found)))
     })?;
-    made(py, language, found)
+    made(py, language, &[&source], found)
 }
 
 /// The recording that an experiment predicts, as CSV.
@@ -355,7 +361,9 @@ pub(crate) fn verify(
             without_claims,
         }
     })?;
-    Ok(Made::new(What::Verification(Box::new(verification))))
+    let sources: Vec<&Source> = sources.iter().collect();
+    let found = What::Verification(Box::new(verification));
+    Ok(Made::new(found, read_for(&sources)))
 }
 
 /// Recomputes the claimed budgets of a sheet.
@@ -372,11 +380,26 @@ pub(crate) fn audit(py: Python<'_>, source: Source, language: &str) -> PyResult<
         }
         Ok(claims) => Ok(What::Audit(name, claims)),
     });
-    made(py, language, found)
+    made(py, language, &[&source], found)
 }
 
-fn made(py: Python<'_>, language: Language, found: Result<What, Unmade>) -> PyResult<Made> {
-    found.map(Made::new).map_err(|why| why.raised(py, language))
+/// What was found in files, or why there is nothing.
+fn made(
+    py: Python<'_>,
+    language: Language,
+    sources: &[&Source],
+    found: Result<What, Unmade>,
+) -> PyResult<Made> {
+    found
+        .map(|found| Made::new(found, read_for(sources)))
+        .map_err(|why| why.raised(py, language))
+}
+
+/// The files of the disk that were read.
+fn read_for(sources: &[&Source]) -> Ledger {
+    let read = Ledger::default();
+    sources.iter().for_each(|source| source.note(&read));
+    read
 }
 
 fn read(py: Python<'_>, source: &Source) -> PyResult<Vec<u8>> {

@@ -37,7 +37,7 @@ mod _engine {
     #[pymodule_export]
     use super::refusal::{NoResult, Refused};
     #[pymodule_export]
-    use super::source::{recordings_of, toml_of};
+    use super::source::{recordings_of, toml_of, unit_of};
 
     use super::*;
 

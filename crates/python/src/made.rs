@@ -9,7 +9,8 @@ use gumption_export::{FORMATS, Format, Page, named, with_ending};
 use gumption_fault::language::Language;
 use gumption_fleet::Fleet;
 use gumption_format::document::{Administration, Attachment, Document};
-use gumption_format::files::write::{Output, Replacing, Unwritten, Why, write};
+use gumption_format::files::Ledger;
+use gumption_format::files::write::{Output, Replacing, Unwritten, Why, unread, write};
 use gumption_gum::propagate::{self, EvaluatedRow};
 use gumption_lab::calibrate::{self, Calibration, Campaign};
 use gumption_lab::diagnose::case::Case;
@@ -74,15 +75,19 @@ pub(crate) struct Made {
     what: Arc<What>,
     /// Who certifies it for whom.
     administration: Option<Administration>,
+    /// The files of the disk that were read for it, which it does not overwrite.
+    read: Ledger,
     english: OnceLock<Document>,
     chinese: OnceLock<Document>,
 }
 
 impl Made {
-    pub fn new(what: What) -> Made {
+    /// What was computed from files; `read` has those of them that are on the disk.
+    pub fn new(what: What, read: Ledger) -> Made {
         Made {
             what: Arc::new(what),
             administration: None,
+            read,
             english: OnceLock::new(),
             chinese: OnceLock::new(),
         }
@@ -156,9 +161,13 @@ impl Made {
         let given = certificate.with(report::administration);
         let given = given.map_err(|rejection| Unmade::from(rejection).raised(py, language))?;
         let kept = report::template_names(&given).map(|kept| kept.in_language(language));
+        let read = Ledger::default();
+        read.note_all(&self.read);
+        certificate.note(&read);
         let made = Made {
             what: Arc::clone(&self.what),
             administration: Some(given),
+            read,
             english: OnceLock::new(),
             chinese: OnceLock::new(),
         };
@@ -166,7 +175,7 @@ impl Made {
     }
 
     /// Writes the document in the format of the path's ending, as a whole. What is there is replaced if this program wrote
-    /// it and nobody changed it since, or if the caller says so.
+    /// it and nobody changed it since, or if the caller says so; what was read for it never is.
     fn save(&self, py: Python<'_>, path: PathBuf, language: &str, replace: bool) -> PyResult<()> {
         let languages = Languages::of(language)?;
         let ending = path.extension().unwrap_or_default().to_string_lossy();
@@ -177,9 +186,10 @@ impl Made {
             false => Replacing::Own,
         };
         py.detach(|| {
+            let refused = |why| unwritten(why, languages.first());
+            unread(&path, &self.read).map_err(refused)?;
             let content = self.rendered(format, languages, Page::default().width)?;
-            write(&[Output { path, content }], replacing)
-                .map_err(|why| unwritten(why, languages.first()))
+            write(&[Output { path, content }], replacing).map_err(refused)
         })
     }
 

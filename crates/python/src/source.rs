@@ -4,7 +4,8 @@ use std::fmt;
 use std::iter::successors;
 use std::path::{Path, PathBuf};
 
-use gumption_format::files::Files;
+use gumption_format::files::{Files, Ledger};
+use gumption_format::toml::unit_of_amount;
 use gumption_lab::calibrate::{label, listed};
 use pyo3::exceptions::{PyOSError, PyTypeError};
 use pyo3::prelude::*;
@@ -21,6 +22,17 @@ pub(crate) struct Source {
     path: PathBuf,
     #[pyo3(item)]
     files: Option<Vec<(String, Vec<u8>)>>,
+    /// Files of the disk that have been read, also those whose contents are in memory now.
+    #[pyo3(item, from_py_with = noted)]
+    read: Ledger,
+}
+
+/// Paths, as those of files that have been read.
+fn noted(paths: &Bound<'_, PyAny>) -> PyResult<Ledger> {
+    let paths: Vec<PathBuf> = paths.extract()?;
+    let read = Ledger::default();
+    paths.iter().for_each(|path| read.note(path));
+    Ok(read)
 }
 
 impl Source {
@@ -29,15 +41,17 @@ impl Source {
         &self.path
     }
 
-    /// Where it is on the disk, if it is there.
-    pub fn on_disk(&self) -> Option<&Path> {
-        self.files.is_none().then_some(&*self.path)
+    /// Notes the files of the disk that were read, and the file itself if it is there.
+    pub fn note(&self, ledger: &Ledger) {
+        let own = self.files.is_none().then_some(&self.path);
+        own.into_iter().for_each(|path| ledger.note(path));
+        ledger.note_all(&self.read);
     }
 
     /// Hands the files to a reader.
     pub fn with<T>(&self, read: impl FnOnce(Files<'_>, &Path) -> T) -> T {
         match &self.files {
-            None => read(Files::Disk, &self.path),
+            None => read(Files::Noted(&self.read), &self.path),
             Some(files) => {
                 let library: Vec<(&str, &[u8])> = files
                     .iter()
@@ -62,6 +76,12 @@ pub(crate) fn recordings_of(
         .into_iter()
         .map(|path| (label(&path), path))
         .collect())
+}
+
+/// The unit of a text such as `25 µV`, as a file would have it; nothing where there is none.
+#[pyfunction]
+pub(crate) fn unit_of(text: &str) -> Option<String> {
+    unit_of_amount(text)
 }
 
 /// The TOML of a file that is given as a dictionary, its entries in their order. What is `None` is left out; arrays and

@@ -34,6 +34,14 @@ pub(crate) enum Rows<'t> {
 }
 
 impl<'t> Rows<'t> {
+    /// The file, where it is one.
+    pub fn file(&self) -> Option<&'t Source> {
+        match self {
+            Rows::File(source) => Some(source),
+            Rows::Columns(_) => None,
+        }
+    }
+
     /// What is given, of which the texts are taken.
     pub fn of(given: &'t mut Given<'_>) -> PyResult<Rows<'t>> {
         let columns = match given {

@@ -254,3 +254,76 @@ def test_settings_that_do_nothing_are_refused():
     with pytest.raises(TypeError, match="shares"):
         gumption.batch(budget, rows, shares="yes")
     assert gumption.batch(budget, rows, keep="type")["type"] == ["A"]
+
+
+def test_a_line_of_means_is_no_row_of_a_table_in_memory():
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    rows = {"label": ["d1", "d2", "d3", "d4", "mean"], "R": [100.0, 203.0, 151.0, 170.0, 156.0]}
+    tables = [rows]
+    for library in ("pandas", "polars", "pyarrow"):
+        frames = pytest.importorskip(library)
+        tables.append(frames.table(rows) if library == "pyarrow" else frames.DataFrame(rows))
+    for table in tables:
+        with pytest.raises(gumption.Refused, match='line 6, "mean"') as refused:
+            gumption.batch(budget, table)
+        assert refused.value.faults[0].code == "R0108"
+    with pytest.raises(gumption.Refused, match='line 6, "mean"'):
+        gumption.batch(budget, tables[1].set_index("label"))
+    assert len(gumption.batch(budget, {**rows, "label": ["d1", "d2", "d3", "d4", "d5"]})["error"]) == 5
+
+
+def test_an_empty_table_has_the_columns_of_one_with_rows(tmp_path):
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    pandas, polars, arrow = (pytest.importorskip(name) for name in ("pandas", "polars", "pyarrow"))
+    rows = {"R": [100.0], "type": ["A"], "number": [7]}
+    keep = ["type", "number"]
+    given = arrow.table(rows)
+    some, none = (arrow.record_batch(gumption.arrow_batch(budget, given.slice(0, count), keep=keep)) for count in (1, 0))
+    assert some.schema == none.schema and none.num_rows == 0
+    frame = pandas.DataFrame(rows)
+    some, none = (gumption.batch(budget, frame.head(count), keep=keep) for count in (1, 0))
+    assert list(some.dtypes) == list(none.dtypes) and list(some) == list(none)
+    frame = polars.DataFrame(rows)
+    some, none = (gumption.batch(budget, frame.head(count), keep=keep) for count in (1, 0))
+    assert some.schema == none.schema and len(polars.concat([some, none])) == 1
+    # So has a file.
+    place = tmp_path / "results.csv"
+    gumption.batch(budget, "R,type\n", keep="type", output=place)
+    assert place.read_text().startswith("label,type,I [mA],")
+
+
+def test_large_whole_numbers_and_dates():
+    budget = '[measurand.y]\nmodel = "x"\n[input]\nx = { value = 1, u = 0.01, relative = true }\n'
+    found = gumption.batch(budget, {"x": [2**63, 2**64 - 1, -(2**70)]})
+    assert found["error"] == ["", "", ""] and list(found["y"]) == [2.0**63, 2.0**64, -(2.0**70)]
+    assert list(gumption.batch(budget, {"x": np.array([2**63], np.uint64)})["y"]) == [2.0**63]
+    told = gumption.batch(budget, {"x": [datetime.date(2026, 1, 1)]})["error"][0]
+    assert "a date is counted from a day that you choose" in told
+
+
+def test_an_index_of_several_levels_is_a_label():
+    pandas = pytest.importorskip("pandas")
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    index = pandas.MultiIndex.from_tuples([("A", 1), ("B", 2)])
+    found = gumption.batch(budget, pandas.DataFrame({"R": [1.0, 2.0]}, index=index))
+    assert list(found["label"]) == ["A 1", "B 2"] and found.index.equals(index)
+
+
+def test_columns_of_runs_and_what_is_no_batch():
+    arrow = pytest.importorskip("pyarrow")
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    runs = arrow.RunEndEncodedArray.from_arrays([2, 3], [100.0, 200.0])
+    found = arrow.record_batch(gumption.arrow_batch(budget, arrow.table({"R": runs})))
+    plain = gumption.batch(budget, {"R": [100.0, 100.0, 200.0]})
+    assert found["I [mA]"].to_pylist() == list(plain["I [mA]"])
+    with pytest.raises(TypeError, match="interface of Arrow is needed, not dict"):
+        gumption.arrow_batch(budget, {"R": [1.0]})
+
+
+def test_an_output_is_no_file_that_the_budget_names(tmp_path):
+    budget, data = tmp_path / "budget.toml", tmp_path / "data.csv"
+    budget.write_text('[measurand.y]\nmodel = "V * x"\n[input]\nV = { readings = { file = "data.csv", column = "V" } }\nx = { value = 1, u = 0.1 }\n')
+    data.write_text("V\n1.0\n1.1\n1.2\n")
+    with pytest.raises(OSError, match="never overwritten"):
+        gumption.batch(budget, {"x": [1.0, 2.0]}, output=data, replace=True)
+    assert data.read_text().startswith("V\n1.0")

@@ -167,7 +167,7 @@ def test_paths_stand_in_a_dict():
     budget = {"measurand": {"y": {"model": "x"}}, "input": {"x": readings}}
     assert gumption.evaluate(budget, files={"readings.csv": "U\n1.0\n1.2\n"})["y"].y == 1.1
     for unfit in (3, [1.0, 1.2]):
-        with pytest.raises(TypeError, match="what readings.csv holds is a text or bytes"):
+        with pytest.raises(TypeError, match="what readings.csv holds is a text, bytes or a path"):
             gumption.evaluate(budget, files={"readings.csv": unfit})
     for unfit in (None, 3, [budget], b"[input]\n"):
         with pytest.raises(TypeError, match="a file is its path, its text, or a dict"):
@@ -347,6 +347,33 @@ def test_reports_are_written_as_a_whole(tmp_path):
         result.save(tmp_path / "current.doc")
 
 
+def test_what_was_read_is_never_overwritten(tmp_path):
+    budget, data, sheet = tmp_path / "budget.toml", tmp_path / "data.txt", tmp_path / "sheet.xlsx"
+    budget.write_text('[measurand.U]\nmodel = "V"\n[input]\nV = { readings = { file = "data.txt", column = "V" } }\n')
+    data.write_text("V\n1.0\n1.1\n1.2\n")
+    (tmp_path / "link.txt").symlink_to(data)
+    read = gumption.evaluate(budget, monte_carlo=False)
+    given = gumption.evaluate(budget.read_text(), files={"data.txt": data}, monte_carlo=False)
+    for result, place in ((read, data), (read, tmp_path / "link.txt"), (read, budget), (given, data)):
+        if place.suffix == ".toml":
+            place = place.rename(tmp_path / "budget.txt")
+        with pytest.raises(OSError, match="is read by this command and is never overwritten"):
+            result.save(place, replace=True)
+    assert data.read_text().startswith("V\n1.0")
+    read.save(sheet)
+    # What another result has written, and read, is nothing to this one.
+    audited = gumption.audit(sheet)
+    with pytest.raises(OSError, match="never overwritten"):
+        audited.save(sheet)
+    read.save(sheet)
+    laboratory = tmp_path / "laboratory.txt"
+    laboratory.write_bytes((TOP / "reports/certificates/laboratory.toml").read_bytes())
+    certified = read.certified(laboratory)
+    with pytest.raises(OSError, match="never overwritten"):
+        certified.save(laboratory, replace=True)
+    read.save(laboratory, replace=True)
+
+
 def test_frames():
     series = RESISTOR + '[series]\ncolumns = ["label", "V"]\nrows = [["a", 1.0], ["b", 2.0]]\n'
     result = gumption.evaluate(series, trials=2000)
@@ -358,6 +385,7 @@ def test_frames():
         assert list(table["U"]) == expected and list(table["label"]) == ["a", "b"]
     with pytest.raises(LookupError, match="2 rows"):
         result["I"]
+    assert not hasattr(result, "zzz") and getattr(result, "measurands", None) is None and hasattr(result, "rows")
 
 
 def test_an_interrupt_ends_an_evaluation():
@@ -526,3 +554,47 @@ def test_an_audit_of_a_sheet():
 def test_published_examples_hold():
     found = gumption.verify(TOP / "budgets/inertial/mimu-gyro-scale-factor.toml")
     assert found.rows[0].to_dict()["examples"]
+
+
+def test_a_path_may_have_a_sign_of_equality(tmp_path, monkeypatch):
+    (tmp_path / "year=2026").mkdir()
+    (tmp_path / "year=2026/resistor.toml").write_text(RESISTOR)
+    (tmp_path / "year=2026/resistor").write_text(RESISTOR)
+    monkeypatch.chdir(tmp_path)
+    for path in ("year=2026/resistor.toml", "year=2026/resistor"):
+        assert gumption.evaluate(path, monte_carlo=False)["I"].unit == "mA"
+    with pytest.raises(gumption.Refused, match="there is no file year=2025"):
+        gumption.evaluate("year=2025/resistor.toml")
+    with pytest.raises(gumption.Refused, match="has no key `year`"):
+        gumption.evaluate("year=2026")
+    with pytest.raises(ValueError, match="no path, being too long") as told:
+        gumption.evaluate("x" * 100_000)
+    assert len(str(told.value)) < 200
+
+
+def test_what_is_given_otherwise_than_it_should_be_is_told():
+    budget, results = {"measurand": {"y": {"model": "x"}}, "input": {"x": {"value": 1, "u": 0.1}}}, {"R": [1.0, 2.0], "u(R)": [0.1, 0.1]}
+    gyro = "recording = { file = 'o.csv', average = 'none' }\nequations = 'U = K*w + b'\n"
+    for wrong, told in (
+        (lambda: gumption.evaluate(budget, files=["a"]), "files: names with what they hold"),
+        (lambda: gumption.evaluate(budget, files={"a.csv": 1}), "files: what a.csv holds"),
+        (lambda: gumption.fleet(results, by=None), "by: a text or a list of texts"),
+        (lambda: gumption.batch(budget, {"x": [1.0]}, keep=None), "keep: a text or a list of texts"),
+        (lambda: gumption.diagnose(gyro, why=[1]), "why: a text or a list of texts"),
+        (lambda: gumption.calibrate(gyro, recordings="w,U\n1,2\n"), "a text has a name"),
+        (lambda: gumption.calibrate(gyro, progress=print), "progress: of use with recordings only"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=told):
+            wrong()
+    assert "it is empty" in gumption.calibrate(gyro, recordings={"e": ""})["error"][0]
+
+
+def test_a_figure_is_found_by_its_symbol():
+    with pytest.raises(AttributeError, match="there are y, u, nu, k, U, interval, p, name, unit, "):
+        _ = gumption.evaluate(RESISTOR, monte_carlo=False)["I"].uncertainty
+
+
+def test_files_may_be_named_by_their_paths(tmp_path):
+    (tmp_path / "r.csv").write_text("U\n1.0\n1.1\n1.2\n")
+    mean = '[measurand.U]\nmodel = "V"\n[input]\nV = { readings = { file = "readings.csv", column = "U" } }\n'
+    assert gumption.evaluate(mean, files={"readings.csv": tmp_path / "r.csv"}, monte_carlo=False)["U"].y == 1.1

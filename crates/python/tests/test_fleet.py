@@ -249,3 +249,19 @@ def test_an_experiment_that_is_none_is_refused(runs):
         gumption.calibrate(folder / "none.toml", recordings=folder / "runs")
     with pytest.raises(gumption.Refused):
         gumption.calibrate("equations = [", recordings=folder / "runs")
+
+
+def test_a_group_of_one_row_has_the_columns_of_the_others():
+    def groups(names):
+        return gumption.fleet({"R": [1.0, 2.0, 2.1, 2.05], "u(R)": [0.1] * 4, "k(R)": [2.0] * 4, "type": names}, by="type").table()
+
+    first, last, alone = groups(list("ABBB")), groups(list("ZBBB")), groups(list("ABCD"))
+    assert list(first) == list(last) == list(alone) and "consistency" not in first
+    assert np.isnan(first["birge"][0]) and first["birge"][1] == last["birge"][0] and np.isnan(alone["birge"]).all()
+
+
+def test_a_line_of_means_is_no_device_of_columns():
+    rows = {"label": ["d1", "d2", "d3", "d4", "mean"], "R": [1.0, 1.3, 1.2, 1.1, 1.15], "u(R)": [0.1, 0.12, 0.11, 0.13, 0.115], "k(R)": [2.0] * 5}
+    for table in (rows, pytest.importorskip("pandas").DataFrame(rows)):
+        with pytest.raises(gumption.Refused, match='line 6, "mean"'):
+            gumption.fleet(table)

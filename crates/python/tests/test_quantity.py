@@ -16,6 +16,11 @@ from gumption import correlated, covariance, quantity
 def test_what_is_common_cancels():
     x = quantity(2.0, 0.1)
     assert (x - x).u == 0 and (x / x).y == 1
+    for at in range(1, 60):
+        x = quantity(at / 7, 0.01)
+        for formula, wanted in ((x / x, 1.0), (x / (x + x), 0.5), (np.sin(x) / np.sin(x), 1.0)):
+            gum = gumption.evaluate(formula.budget(), monte_carlo=False)["y"].gum
+            assert (gum.estimate, gum.standard_uncertainty) == (wanted, 0.0), formula.budget()
 
 
 def test_digits_that_are_shown():
@@ -68,6 +73,28 @@ def test_a_value_says_its_unit():
     assert (written / quantity("2 A", 0.02)).u == (apart / quantity(2, 0.02, "A")).u
 
 
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("45°", "°", 45.0),
+        ("45\u00a0°", "°", 45.0),
+        ("45°00′36″", "°", 45.01),
+        ("5%", "%", 5.0),
+        ("5\u202fppm", "ppm", 5.0),
+        ("5V", "V", 5.0),
+        ("5％", "%", 5.0),
+    ],
+)
+def test_the_unit_of_a_text_is_that_of_a_file(text, unit, value):
+    x = quantity(text, 0.1)
+    file = {"measurand": {"y": {"model": "a", "unit": unit}}, "input": {"a": {"value": text, "u": 0.1}}}
+    there = gumption.evaluate(file, monte_carlo=False)["y"].gum
+    assert (x.unit, x.result["y"].gum.estimate, x.u) == (unit, there.estimate, there.standard_uncertainty)
+    assert math.isclose(there.estimate, value) and math.isclose(there.standard_uncertainty, 0.1)
+    assert math.isclose(quantity(text, certificate={"U": 0.2, "k": 2}).u, 0.1)
+    assert math.isclose(correlated([text, text], [0.1, 0.2], np.eye(2))[1].u, 0.2)
+
+
 def test_what_is_exact_is_looked_at_alone():
     exact = quantity(5, unit="V") * 2
     assert (exact.y, exact.u, exact.unit, str(quantity(5))) == (10.0, 0.0, "V", "<5, u = 0>")
@@ -76,6 +103,7 @@ def test_what_is_exact_is_looked_at_alone():
 
 def test_every_name_may_be_given():
     y, q1 = quantity(1.0, 0.1, name="y"), quantity(2.0, 0.1, name="q1")
+    assert quantity(1, half_width=0.1, name="y").y == 1 and quantity(readings=[1, 2], name="y").y == 1.5
     assert (y + q1 * quantity(3.0, 0.1)).result["y1"].gum.estimate == 7.0 and (y - y).u == 0
     assert np.allclose(covariance([y, quantity(1.0, 0.2, name="y1")]), np.diag([0.01, 0.04]))
 
@@ -114,6 +142,8 @@ def test_what_is_wrong_is_told_where_it_is_written():
     for wrong in ({"doff": 3}, {"distribution": "unifrom"}, {"half_width": 0.1}):
         with pytest.raises(gumption.Refused):
             quantity(1.0, 0.1, **wrong)
+    with pytest.raises(gumption.Refused, match="write \"1000 V\""):
+        quantity("1 000 V", 1.0)
     for text in ("1.0+/-0.1", "1.0"):
         with pytest.raises(gumption.Refused, match="value"):
             quantity(text)
@@ -121,6 +151,11 @@ def test_what_is_wrong_is_told_where_it_is_written():
         quantity(quantity(1.0, 0.1))
     with pytest.raises(ValueError, match="cannot be the name"):
         quantity(1.0, 0.1, name=3)
+    for several in ({"values": [1, 2, 3], "u": 0.1}, {"readings": [[1.0, 1.1], [5.0, 5.1]]}):
+        with pytest.raises(TypeError, match="a quantity is one"):
+            quantity(**several)
+    with pytest.raises(ValueError, match=r"x - quantity\(273.15, unit='K'\)"):
+        quantity(300.0, 0.1, unit="K").to("°C")
     with pytest.raises(gumption.Refused, match="not symmetric"):
         correlated([1, 2], [0.1, 0.1], [[1, 0.9], [0.5, 1]])
     for short in ({"names": ["a"]}, {"unit": ["V"]}):
@@ -175,6 +210,7 @@ def test_more_functions_of_numpy():
         slope = (function(0.3 + 1e-6) - function(0.3 - 1e-6)) / 2e-6
         assert math.isclose(function(x).y, function(0.3), rel_tol=1e-9), function
         assert math.isclose(function(x).u, abs(slope) * 1e-6, rel_tol=1e-6), function
+    assert np.fmax(x, z).y == 0.5 and np.fmin(x, z).y == 0.3 and np.fabs(-x).y == 0.3
     assert np.maximum(x, z).y == 0.5 and np.minimum(x, z).y == 0.3 and np.float_power(x, 2).y == (x**2).y
     tiny = quantity(1e-12, 1e-15)
     assert math.isclose(np.expm1(tiny).y, 1e-12, rel_tol=1e-9) and math.isclose(np.log1p(tiny).y, 1e-12, rel_tol=1e-9)
@@ -302,6 +338,27 @@ def test_arrays_of_quantities():
     x = np.array([quantity(float(at), 1e-6) for at in range(1, 4)])
     assert [one.y for one in np.sqrt(x * 4)] == pytest.approx([2, math.sqrt(8), math.sqrt(12)])
     assert math.isclose(x.sum().u, 1e-6 * math.sqrt(3))
+    for function in (np.hypot, np.arctan2):
+        assert [one.y for one in function(x, x[0])] == [one.y for one in function(x, np.array([x[0]] * 3))]
+        assert math.isclose(function(x, 1.0)[1].y, function(2.0, 1.0))
+    assert [one.y for one in np.floor(x + 0.5)] == [1, 2, 3] and [one.y for one in np.ceil(x - 0.5)] == [1, 2, 3]
+    assert (x[1] * np.array(2.0)).y == 4 and (np.array(x[1], dtype=object) * x[0]).y == 2 and np.polyval(x, 2.0).y == 11
+
+
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.array([1, 2j]),
+        np.array([None, 2.0], dtype=object),
+        np.array(["a", "b"]),
+        np.array(["2026-01-01"], dtype="datetime64[D]"),
+    ],
+)
+def test_arrays_of_no_numbers_are_refused(array):
+    x = quantity(1.5, 0.1)
+    for wrong in (lambda: x * array, lambda: array - x):
+        with pytest.raises(TypeError, match="stands in no formula of quantities"):
+            wrong()
 
 
 def test_numbers_of_gtc_keep_degrees_of_freedom_and_correlation():
@@ -322,6 +379,37 @@ def test_numbers_of_gtc_keep_degrees_of_freedom_and_correlation():
     assert math.isclose((quantity(x) + quantity(y)).u, (x + y).u)
     with pytest.raises(TypeError, match="real"):
         quantity(gtc.ucomplex(1 + 1j, 0.1))
+
+
+def test_numbers_of_other_packages_take_a_unit_and_nothing_else():
+    uncertainties, gtc = pytest.importorskip("uncertainties"), pytest.importorskip("GTC")
+    for number in (uncertainties.ufloat(5.0, 0.1), gtc.ureal(5.0, 0.1, 7)):
+        x = quantity(number, unit="mV")
+        assert (x.y, x.u, x.unit) == (5.0, 0.1, "mV") and math.isclose((x / quantity(1, unit="mV") - number).u, 0, abs_tol=1e-15)
+        assert repr(quantity(number, unit="°C").to("K")) == "<278.150 K, u = 0.100>"
+        for wrong in ({"u": 0.3}, {"dof": 3}, {"name": "a"}, {"foo": 1, "unit": "V"}):
+            with pytest.raises(TypeError, match="beside it stands unit alone"):
+                quantity(number, **wrong)
+        with pytest.raises(gumption.Refused, match="not a known unit"):
+            quantity(number, unit="nonsense")
+
+
+def test_numbers_of_which_u_is_missing_are_refused():
+    uncertainties = pytest.importorskip("uncertainties")
+    unknown, known = uncertainties.ufloat(5.0, math.nan), uncertainties.ufloat(1.0, 0.1)
+    for wrong in (lambda: quantity(unknown), lambda: quantity(unknown + known), lambda: quantity(1.0, 0.1) + unknown):
+        with pytest.raises(ValueError, match="std_dev of 5.0 is nan"):
+            wrong()
+
+
+def test_a_formula_that_was_handed_over_comes_back_to_first_order():
+    pytest.importorskip("uncertainties")
+    pytest.importorskip("GTC")
+    x = quantity(1.5, 0.1)
+    square = x * x
+    for there in (square.to_uncertainties(), square.to_gtc()):
+        rest = (quantity(there) - square).result["y"]
+        assert rest.gum.standard_uncertainty == 0 and rest.u > 0
 
 
 def test_quantities_become_numbers_of_gtc():

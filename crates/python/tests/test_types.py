@@ -18,12 +18,16 @@ u: float | None = x.u
 value: float = x.to("mV").y
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 a, b = gumption.correlated(np.array([1.0, 2.0]), u=np.array([0.1, 0.2]), correlation=np.eye(2))
 total = a * Decimal("1.5") + Decimal("2") * b - Fraction(1, 3) * a + Fraction(1, 2)
 table = gumption.calibrate("gyro.toml", recordings=["one.csv", "two.csv"])
 errors: list[str] = table["error"]
+scaled = a * np.int64(2) + b ** np.int64(2) + np.float32(1) * a + quantity(1, u=Decimal("0.1"))
+gumption.evaluate("budget.toml", seed=np.int64(3), trials=1e5, threads=np.int32(1))
+gumption.evaluate("budget.toml", files={"readings.csv": Path("readings.csv")})
 try:
-    gumption.diagnose("case.toml", progress=print)
+    gumption.diagnose("case.toml", why=["thermal lag", "drift"], progress=print)
 except gumption.Refused as refused:
     mends: list[str | None] = [fault.mend for fault in refused.faults]
 """

@@ -407,6 +407,11 @@ impl Table {
         text
     }
 
+    /// These columns are kept, also where no row says so.
+    pub fn keep(&mut self, heads: Vec<String>) {
+        self.kept.get_or_insert(heads);
+    }
+
     /// What is left where no row has a result, and how the rows have ended.
     pub fn end(mut self) -> (Vec<u8>, Count) {
         if self.headed {

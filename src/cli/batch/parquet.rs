@@ -36,13 +36,14 @@ pub(super) fn written(work: Work<'_>, mut sink: Sink) -> Result<Count, Outcome> 
         sink.add(&writer.add(&cells, &["seed"])?)
     };
     let add = |values: &mut Values, row: &Lot<'_>| columns.add_values(values, row);
-    work.each(add, |values| {
+    let kept = work.each(add, |values| {
         results.add(values);
         match results.rows() < GROUP {
             true => Ok(()),
             false => put(results.take()),
         }
     })?;
+    results.keep(kept);
     let (left, count) = results.end();
     let done = put(left);
     let done = done.and_then(|()| sink.add(&writer.end()?));

@@ -228,6 +228,11 @@ impl Model {
         resolution::resolved(&self.graph, x)
     }
 
+    /// How far the arithmetic knows an output at most, with what cancels on the way; [`Model::resolved`] does not look for that.
+    pub fn error_of(&self, x: &[f64], output: usize) -> f64 {
+        resolution::error_of(&self.graph, x, output)
+    }
+
     /// The value of the first output, and its derivatives by all inputs.
     pub fn value_and_slopes(&self, x: &[f64], slopes: &mut [f64]) -> f64 {
         let values = self.graph.evaluate(&points(x));

@@ -124,27 +124,55 @@ pub fn resolved(graph: &Graph, x: &[f64]) -> Vec<Resolved> {
     graph.outputs.iter().map(of).collect()
 }
 
+/// How far the value of an output may be off: what each operation may add, carried on by all ways on which it reaches the output at
+/// once, and not by each of them alone. Where they cancel, as in x/x, the digits that the decimal of x leaves open are in no doubt of
+/// the output.
+pub fn error_of(graph: &Graph, x: &[f64], output: usize) -> f64 {
+    let of = graph.outputs[output];
+    let inputs: Vec<Known> = x.iter().map(|x| decimal(*x)).collect();
+    let all = run(graph, inputs.clone());
+    let points: Vec<Jet<1>> = x.iter().map(|x| Jet::constant(*x)).collect();
+    let adjoints = graph.adjoints(&graph.evaluate(&points), of);
+    let certain = |id: u32| Known {
+        error: 0.0,
+        ..all[id as usize]
+    };
+    let added = graph.ops.iter().zip(&adjoints).map(|(op, adjoint)| {
+        let own = step(graph, op, &inputs, certain).error;
+        let carried = own * adjoint.value().abs();
+        // What has no error adds none, whatever the slope.
+        if own == 0.0 { 0.0 } else { carried }
+    });
+    // Each slope on the way is a double.
+    let rounded = graph.ops.len() as f64 * ROUNDING * all[of as usize].error;
+    added.sum::<f64>() + rounded
+}
+
 fn run(graph: &Graph, inputs: Vec<Known>) -> Vec<Known> {
     let mut all: Vec<Known> = Vec::with_capacity(graph.ops.len());
     for op in &graph.ops {
-        let at = |id: u32| all[id as usize];
-        let known = match *op {
-            Op::Input(place) => inputs[place as usize],
-            Op::Constant(bits) => decimal(f64::from_bits(bits)),
-            Op::Unknown(_) => decimal(f64::NAN),
-            Op::Unary(row, a) => unary(row, at(a)),
-            Op::Binary(row, a, b) => binary(row, at(a), at(b)),
-            Op::Power(a, c) => power(at(a), f64::from_bits(c)),
-            Op::Select(c, a, b) => at(if high(&at(c)) != 0.0 { a } else { b }),
-            Op::Solve(n) => {
-                let equation = &graph.implicit[n as usize];
-                let parameters: Vec<Known> = equation.parameters.iter().map(|p| at(*p)).collect();
-                root(&equation.residual, high(&at(equation.start)), &parameters)
-            }
-        };
+        let known = step(graph, op, &inputs, |id| all[id as usize]);
         all.push(known);
     }
     all
+}
+
+/// What is known of an operation on operands.
+fn step(graph: &Graph, op: &Op, inputs: &[Known], at: impl Fn(u32) -> Known) -> Known {
+    match *op {
+        Op::Input(place) => inputs[place as usize],
+        Op::Constant(bits) => decimal(f64::from_bits(bits)),
+        Op::Unknown(_) => decimal(f64::NAN),
+        Op::Unary(row, a) => unary(row, at(a)),
+        Op::Binary(row, a, b) => binary(row, at(a), at(b)),
+        Op::Power(a, c) => power(at(a), f64::from_bits(c)),
+        Op::Select(c, a, b) => at(if high(&at(c)) != 0.0 { a } else { b }),
+        Op::Solve(n) => {
+            let equation = &graph.implicit[n as usize];
+            let parameters: Vec<Known> = equation.parameters.iter().map(|p| at(*p)).collect();
+            root(&equation.residual, high(&at(equation.start)), &parameters)
+        }
+    }
 }
 
 pub(super) fn unary(row: &Unary, a: Known) -> Known {
@@ -267,6 +295,38 @@ mod tests {
         assert_eq!(
             known("a^2 - b^2", &[1.000_000_1, 1.0]).value,
             2.000_000_1e-7
+        );
+    }
+
+    #[test]
+    fn what_cancels_leaves_nothing_in_doubt() {
+        for v in 1..600 {
+            let x = [f64::from(v) / 7.0, 0.3];
+            for (text, wanted) in [
+                ("a / a", 1.0),
+                ("a / (a + a)", 0.5),
+                ("2 * a / a", 2.0),
+                ("sin(a) / sin(a)", 1.0),
+            ] {
+                let model = model("a b", text, "1");
+                let error = model.error_of(&x, 0);
+                assert_eq!(model.resolved(&x)[0].value, wanted, "{text} of {}", x[0]);
+                assert!(error < 1e-26, "{text} of {}: {error}", x[0]);
+            }
+        }
+        // Where nothing cancels it is what the operations add one by one.
+        let lost = |text: &str, x: &[f64]| {
+            let model = model("a b", text, "1");
+            model.error_of(x, 0) / model.resolved(x)[0].error
+        };
+        let all = [
+            lost("exp(a) - exp(b)", &[30.0, 30.000_000_000_000_1]),
+            lost("a - b", &[1.0 / 7.0, 1.0 / 9.0]),
+            lost("a * b + 1", &[1.0 / 7.0, 1.0 / 9.0]),
+        ];
+        assert!(
+            all.iter().all(|ratio| (ratio - 1.0).abs() < 1e-12),
+            "{all:?}"
         );
     }
 

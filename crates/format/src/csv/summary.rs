@@ -1,5 +1,8 @@
 //! Lines at the end of a table that sum up the rows above.
 
+use std::ops::Range;
+
+use super::columns::Columns;
 use super::faults::NOT_A_NUMBER;
 use super::field::number;
 use super::sheet::{Row, Sheet};
@@ -62,14 +65,40 @@ fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
 /// column but those of numbers tells its rows apart, it has a word in one of the others. One that is called a mean may have few
 /// digits, and two rows above.
 pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
+    let rows = || sheet.rows().filter_map(Result::ok);
+    let place = |row: &Row<'_>, column| sheet.place(row, column);
+    mean_among((sheet, has_numbers), rows().last()?, rows, place)
+}
+
+/// The same of a table in memory, of which `head` is the line of names: there a line has no place but below them.
+pub fn mean_of_columns(
+    columns: &Columns<'_>,
+    head: &Sheet<'_>,
+    has_numbers: impl Fn(usize) -> bool,
+) -> Option<Fault> {
+    /// A file is looked at as far as its first piece goes.
+    const MOST: usize = 1 << 15;
+    let count = columns.rows();
+    let last = count.checked_sub(1).filter(|last| *last < MOST)?;
+    let rows = || (0..count).map(|at| columns.row(at));
+    let place = |_: &Row<'_>, column| head.name_place(column);
+    mean_among((head, has_numbers), columns.row(last), rows, place)
+}
+
+/// The same of these rows, of which the last is at hand; `place` is where a field of a row stands.
+fn mean_among<'r, R: Iterator<Item = Row<'r>>>(
+    (sheet, has_numbers): (&Sheet<'_>, impl Fn(usize) -> bool),
+    last: Row<'r>,
+    rows: impl Fn() -> R,
+    place: impl Fn(&Row<'r>, usize) -> Range<usize>,
+) -> Option<Fault> {
     /// By chance a row is so rarely the mean of the others.
     const RARE: f64 = 0.001;
     let (numbers, names): (Vec<usize>, Vec<usize>) =
         (0..sheet.header().len()).partition(|at| has_numbers(*at));
     let word = |row: &Row<'_>| names.iter().copied().find(|at| is_word(row.field(*at)));
-    let last = sheet.rows().filter_map(Result::ok).last()?;
     word(&last)?;
-    let rows: Vec<Row<'_>> = sheet.rows().filter_map(Result::ok).collect();
+    let rows: Vec<Row<'r>> = rows().collect();
     let is_mean = |at: &usize| {
         let (above, own) = (&rows[..*at], &rows[*at]);
         let is_called = word(own).is_some_and(|column| is_called_mean(own.field(column)));
@@ -87,7 +116,7 @@ pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> O
         own.line,
         own.field(column)
     );
-    let fault = Fault::new(NOT_A_NUMBER, sheet.place(own, column), message);
+    let fault = Fault::new(NOT_A_NUMBER, place(own, column), message);
     let fault = fault.label(say!("does this line sum up the rows above?"));
     Some(fault.help(say!(
         "delete it: what sums up rows is none of them; if it is one, give it a name with a number"
@@ -138,6 +167,7 @@ fn is_word(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::columns::Cells;
     use super::*;
 
     #[test]
@@ -202,5 +232,18 @@ mod tests {
             let text = format!("label,V,R\n{lines}");
             assert_eq!(found(&text).as_deref(), wanted, "{lines}");
         }
+
+        // As columns, which have their numbers as they are computed.
+        let numbers = |last: f64| Cells::Numbers(vec![100.0, 203.0, 151.0, 170.0, last].into());
+        let found = |name: &str, last| {
+            let names = ["d1", "d2", "d3", "d4", name].map(str::to_owned);
+            let labels = ("label".to_owned(), Cells::Texts(names.into()));
+            let columns = Columns::new(vec![labels, ("R".to_owned(), numbers(last))]);
+            let (columns, head) = (columns.expect("of equal length"), "label,R\n");
+            let head = Sheet::new(head).expect("names");
+            mean_of_columns(&columns, &head, |at| at > 0).map(|fault| fault.span)
+        };
+        assert_eq!(found("mean", 156.0), Some(0..5));
+        assert_eq!((found("d5", 156.0), found("mean", 157.0)), (None, None));
     }
 }

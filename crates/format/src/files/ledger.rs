@@ -7,18 +7,47 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::identity::FileId;
 
-/// Nothing until a program asks for it: a library that reads files for years keeps none of their names.
-static READ: OnceLock<Mutex<HashSet<FileId>>> = OnceLock::new();
+/// Files of the disk that have been read, known under all of their names.
+#[derive(Debug, Default)]
+pub struct Ledger(Mutex<HashSet<FileId>>);
 
-/// From now on this process knows which files of the disk it has read. A command asks for it when it begins.
+/// Nothing until a program asks for it: a library that reads files for years keeps none of their names.
+static READ: OnceLock<Ledger> = OnceLock::new();
+
+/// From now on this process knows which files of the disk it has read. A command asks for it when it begins; what runs many of
+/// them in one process has a [`Ledger`] for each.
 pub fn remember_reads() {
-    READ.get_or_init(Mutex::default);
+    READ.get_or_init(Ledger::default);
 }
 
 /// Notes a file that is being read.
 pub(super) fn note(path: &Path) {
-    if let (Some(mut read), Some(file)) = (ledger(), FileId::of(path)) {
-        read.insert(file);
+    if let Some(ledger) = READ.get() {
+        ledger.note(path);
+    }
+}
+
+impl Ledger {
+    /// Notes a file that is read.
+    pub fn note(&self, path: &Path) {
+        if let Some(file) = FileId::of(path) {
+            self.files().insert(file);
+        }
+    }
+
+    /// Notes the files of another one, too.
+    pub fn note_all(&self, other: &Ledger) {
+        let files: Vec<FileId> = other.files().iter().cloned().collect();
+        self.files().extend(files);
+    }
+
+    /// Whether a file has been read, under any of its names.
+    pub fn has(&self, path: &Path) -> bool {
+        FileId::of(path).is_some_and(|file| self.files().iter().any(|one| one.is(&file)))
+    }
+
+    fn files(&self) -> MutexGuard<'_, HashSet<FileId>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -33,8 +62,7 @@ pub fn reads() -> Vec<PathBuf> {
 
 /// Whether a file of the disk has been read, under any of its names.
 pub fn was_read(path: &Path) -> bool {
-    let file = FileId::of(path);
-    file.is_some_and(|file| ledger().is_some_and(|read| read.iter().any(|one| one.is(&file))))
+    READ.get().is_some_and(|read| read.has(path))
 }
 
 /// Whether an open file, such as standard output, has been read.
@@ -43,6 +71,5 @@ pub fn was_read_as(open: &Metadata) -> bool {
 }
 
 fn ledger() -> Option<MutexGuard<'static, HashSet<FileId>>> {
-    let read = READ.get()?;
-    Some(read.lock().unwrap_or_else(PoisonError::into_inner))
+    READ.get().map(Ledger::files)
 }

@@ -21,7 +21,7 @@ mod written;
 
 pub use growing::Growing;
 pub use identity::FileId;
-pub use ledger::{reads, remember_reads, was_read_as};
+pub use ledger::{Ledger, reads, remember_reads, was_read_as};
 
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Component, Path, PathBuf};
@@ -36,11 +36,13 @@ pub(crate) const MOST_BYTES: u64 = 1 << 30;
 ///
 /// Everything that a budget names (columns of CSV files, other budgets, saved results) is looked up
 /// from the folder of the budget, here.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub enum Files<'a> {
     /// The files of the computer.
     #[default]
     Disk,
+    /// The files of the computer, of which it is noted which ones are read.
+    Noted(&'a Ledger),
     /// Files in memory: path from the top of the library with `/` between its parts, and content.
     Library(&'a [(&'a str, &'a [u8])]),
     /// A folder of the computer, outside of which nothing is read.
@@ -96,6 +98,14 @@ fn held<'a>(contents: &[(&str, &'a [u8])], path: &Path) -> Option<&'a [u8]> {
 }
 
 impl<'a> Files<'a> {
+    /// Notes a file of the disk that is read.
+    fn note(&self, path: &Path) {
+        match self {
+            Files::Noted(ledger) => ledger.note(path),
+            _ => ledger::note(path),
+        }
+    }
+
     /// The content of a file.
     ///
     /// # Errors
@@ -103,8 +113,8 @@ impl<'a> Files<'a> {
     /// device, and for more than a gibibyte.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>> {
         match self {
-            Files::Disk => {
-                ledger::note(path);
+            Files::Disk | Files::Noted(_) => {
+                self.note(path);
                 content_of(path)
             }
             Files::Library(files) => held(files, path)
@@ -123,8 +133,8 @@ impl<'a> Files<'a> {
     /// As [`Files::read`].
     pub fn open(self, path: &Path) -> Result<Box<dyn Read + 'a>> {
         match self {
-            Files::Disk => {
-                ledger::note(path);
+            Files::Disk | Files::Noted(_) => {
+                self.note(path);
                 let (file, _) = opened(path)?;
                 Ok(Box::new(file))
             }
@@ -145,8 +155,8 @@ impl<'a> Files<'a> {
     /// As [`Files::read`]; `Unsupported` for what is in memory.
     pub fn handle(self, path: &Path) -> Result<std::fs::File> {
         match self {
-            Files::Disk => {
-                ledger::note(path);
+            Files::Disk | Files::Noted(_) => {
+                self.note(path);
                 opened(path).map(|(file, _)| file)
             }
             Files::Folder(folder) if held(folder.instead, path).is_none() => {
@@ -159,7 +169,7 @@ impl<'a> Files<'a> {
     /// How many bytes a file has, as far as is known.
     pub fn length(&self, path: &Path) -> Option<u64> {
         match self {
-            Files::Disk => std::fs::metadata(path).ok().map(|there| there.len()),
+            Files::Disk | Files::Noted(_) => std::fs::metadata(path).ok().map(|there| there.len()),
             Files::Library(files) => held(files, path).map(|content| content.len() as u64),
             Files::Folder(folder) => match held(folder.instead, path) {
                 Some(content) => Some(content.len() as u64),
@@ -171,7 +181,7 @@ impl<'a> Files<'a> {
     /// Whether the path is a folder.
     pub fn is_folder(&self, path: &Path) -> bool {
         match self {
-            Files::Disk => path.is_dir(),
+            Files::Disk | Files::Noted(_) => path.is_dir(),
             Files::Library(files) => {
                 let wanted = plain(path);
                 files.iter().any(|(name, _)| {
@@ -187,7 +197,7 @@ impl<'a> Files<'a> {
         let folder = missing.parent().filter(|folder| *folder != Path::new(""));
         let folder = folder.unwrap_or(Path::new("."));
         let mut names: Vec<String> = match self {
-            Files::Disk => names_in(folder),
+            Files::Disk | Files::Noted(_) => names_in(folder),
             Files::Library(files) => {
                 let beside = plain(missing);
                 let paths = files.iter().map(|(name, _)| Path::new(name));
@@ -206,7 +216,7 @@ impl<'a> Files<'a> {
     /// The same for every way to write the path of one file.
     pub fn identity(&self, path: &Path) -> PathBuf {
         match self {
-            Files::Disk => std::fs::canonicalize(path)
+            Files::Disk | Files::Noted(_) => std::fs::canonicalize(path)
                 .or_else(|_| std::path::absolute(path).map(|path| plain(&path)))
                 .unwrap_or_else(|_| plain(path)),
             Files::Library(_) => plain(path),

@@ -3,7 +3,8 @@
 //! A file is written beside the one whose place it takes and is safe on the disk before it does: readers, and a
 //! computer that goes down, see the old content or the new one. What may be replaced is decided here, once:
 //!
-//! - nothing that the command has read ([`super::remember_reads`]), whatever it is called and whatever is asked for;
+//! - nothing that the command has read ([`super::remember_reads`], [`unread`]), whatever it is called and whatever is asked
+//!   for;
 //! - otherwise a file that this program wrote and that nobody has changed since (its digest is kept as an attribute
 //!   of the file), or what the caller allows.
 //!
@@ -19,7 +20,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use gumption_fault::{Said, of_system, say};
 
-use super::ledger::was_read;
+use super::ledger::{Ledger, was_read};
 use super::mark;
 use super::steps::{Author, DISK, Disk, Draft, sweep};
 
@@ -82,6 +83,18 @@ pub(super) static WRITTEN: Mutex<usize> = Mutex::new(0);
 /// The first that cannot be written.
 pub fn write(outputs: &[Output], replacing: Replacing) -> Result<(), Unwritten> {
     write_by(&DISK, outputs, replacing)
+}
+
+/// Refuses a file that was read.
+///
+/// # Errors
+/// It is in the ledger.
+pub fn unread(path: &Path, read: &Ledger) -> Result<(), Unwritten> {
+    let (path, why) = (path.to_path_buf(), Why::Read);
+    match read.has(&path) {
+        true => Err(Unwritten { path, why }),
+        false => Ok(()),
+    }
 }
 
 /// Whether files could be written as far as is known before there is anything to write: long work is not lost over it.

@@ -346,8 +346,7 @@ impl FromToml for Amount {
                 let place = place.map_or(value.span(), |map| map.place(unit.clone()));
                 Some(Amount {
                     number,
-                    // The sign of a Chinese keyboard.
-                    unit: Some((unit_of(text, &unit).replace('％', "%"), place)),
+                    unit: Some((written_unit(text, &unit), place)),
                 })
             }
             None => reader.refuse(unreadable_amount(value, text)),
@@ -362,6 +361,16 @@ impl FromToml for Amount {
 /// Number and unit of a text such as `25 µV`.
 pub fn amount_parts(text: &str) -> Option<(f64, &str)> {
     split_amount(text).map(|(number, unit)| (number, unit_of(text, &unit)))
+}
+
+/// The unit of a text such as `25 µV`, as a key of its own would state it.
+pub fn unit_of_amount(text: &str) -> Option<String> {
+    split_amount(text).map(|(_, unit)| written_unit(text, &unit))
+}
+
+/// The unit that stands there, with the sign of a Chinese keyboard as that of others.
+fn written_unit(text: &str, place: &Range<usize>) -> String {
+    unit_of(text, place).replace('％', "%")
 }
 
 /// The unit that stands there: that of an angle in minutes and seconds is the degree, however it is written.
@@ -453,13 +462,16 @@ fn number_and_remark(text: &str) -> Option<&str> {
     (is_remark && !is_concise && number.parse::<f64>().is_ok()).then_some(number)
 }
 
+/// What stands for a date where an amount is expected.
+pub fn amount_for_date() -> Said {
+    say!("a date is counted from a day that you choose: write the days between them, \"31 d\"")
+}
+
 /// A value that is neither a number nor a text.
 fn refuse_amount(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Amount> {
     let help = match value.get_ref() {
         DeValue::Array(_) => Some(reader.hints.list_of_amounts.clone()),
-        DeValue::Datetime(_) => Some(say!(
-            "a date is counted from a day that you choose: write the days between them, \"31 d\""
-        )),
+        DeValue::Datetime(_) => Some(amount_for_date()),
         _ => None,
     };
     reader.wrong_type_with(value, Amount::expected(), help)
@@ -555,7 +567,7 @@ impl FromToml for Cell {
 
 #[cfg(test)]
 mod tests {
-    use super::amount_parts;
+    use super::{amount_parts, unit_of_amount};
 
     #[test]
     fn an_angle_in_minutes_and_seconds_is_in_degrees() {
@@ -563,5 +575,19 @@ mod tests {
             assert_eq!(amount_parts(text), Some((45.01, "°")), "{text}");
         }
         assert_eq!(amount_parts("36 ″"), Some((36.0, "″")));
+    }
+
+    #[test]
+    fn a_text_says_its_unit_with_or_without_a_space() {
+        for (text, unit) in [
+            ("45°", "°"),
+            ("5\u{202f}ppm", "ppm"),
+            (" 5％ ", "%"),
+            ("5eV", "eV"),
+            ("45°00′36″", "°"),
+        ] {
+            assert_eq!(unit_of_amount(text).as_deref(), Some(unit), "{text}");
+        }
+        assert_eq!(unit_of_amount("5"), None);
     }
 }

@@ -281,6 +281,12 @@ impl Batch<'_> {
         Some(Some(pattern).filter(|pattern| pattern.gives(&read.budget, row)))
     }
 
+    /// A line at the end of columns whose numbers are the means of those above.
+    pub(crate) fn mean_of(&self, columns: &csv::Columns<'_>, head: &Sheet<'_>) -> Option<Fault> {
+        let sets = |at: usize| matches!(self.targets[at], Some(Column::Path(_)));
+        csv::mean_of_columns(columns, head, sets)
+    }
+
     /// The column of labels, where there is one.
     pub(crate) fn label(&self) -> Option<usize> {
         let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));

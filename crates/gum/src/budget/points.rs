@@ -356,6 +356,10 @@ fn written(field: &str, unit: &HeadUnit, sheet: &Sheet) -> Written {
         {
             Written::Value(format!("{number:?}"))
         }
+        // Whole numbers of TOML have 64 bits.
+        (Some(_), HeadUnit::OfBudget) if is_long_whole(&plain) => {
+            Written::Value(format!("{plain}.0"))
+        }
         (Some(_), HeadUnit::OfBudget) => Written::Value(plain),
         (None, _) if field.starts_with('[') => Written::Value(unit.over(field)),
         // `0,1 %` beside `0,1`.
@@ -364,6 +368,12 @@ fn written(field: &str, unit: &HeadUnit, sheet: &Sheet) -> Written {
         }
         (None, _) => Written::Text(field.to_owned()),
     }
+}
+
+/// Whether a text is a whole number that does not fit into 64 bits.
+fn is_long_whole(text: &str) -> bool {
+    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    digits.bytes().all(|byte| byte.is_ascii_digit()) && text.parse::<i64>().is_err()
 }
 
 /// Whether a text is the infinity of TOML.

@@ -41,7 +41,9 @@ pub fn of_recording(
 ) -> Result<(Campaign, Calibration), Unusable> {
     // What the file names starts from its own folder.
     let place = match files {
-        Files::Disk => absolute(recording).unwrap_or_else(|_| recording.to_path_buf()),
+        Files::Disk | Files::Noted(_) => {
+            absolute(recording).unwrap_or_else(|_| recording.to_path_buf())
+        }
         _ => recording.to_path_buf(),
     };
     let campaign = load_with(files, experiment, &place)

@@ -200,10 +200,7 @@ impl Results {
     /// Adds rows.
     pub fn add(&mut self, values: Values) {
         self.heads = self.heads.take().or_else(|| values.shapes.first());
-        if self.kept.is_empty() {
-            let heads = values.kept.iter().map(|(head, _)| head.clone());
-            self.kept = heads.map(|head| (head, Vec::new())).collect();
-        }
+        self.keep(values.kept.iter().map(|(head, _)| head.clone()));
         self.waiting.push(values);
         let Some(heads) = &self.heads else { return };
         if self.columns.is_empty() {
@@ -216,6 +213,13 @@ impl Results {
             for stretch in values.stretches {
                 self.add_below(stretch, &values.shapes);
             }
+        }
+    }
+
+    /// These columns are kept, also where no row says so.
+    pub fn keep(&mut self, heads: impl IntoIterator<Item = String>) {
+        if self.kept.is_empty() {
+            self.kept = heads.into_iter().map(|head| (head, Vec::new())).collect();
         }
     }
 

@@ -10,7 +10,7 @@ use crate::budget::check::states_uncertainty;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::csv;
-use gumption_format::toml::{Raw, Stated, amount_parts};
+use gumption_format::toml::{Raw, Stated, amount_for_date, amount_parts};
 
 /// The key of the reasons for doubt of an input.
 pub(super) const COMPONENTS: &str = "components";
@@ -30,7 +30,7 @@ pub(super) fn set<'t>(
         Entry::List => None,
     };
     if let (Some(text), Some("value")) = (&text, path.last().map(String::as_str)) {
-        let mend = csv::mend_of_number(text);
+        let mend = csv::mend_of_number(text).or_else(|| csv::days(text).map(|_| amount_for_date()));
         if mend.is_some() || amount_parts(text).is_none() {
             let mend = mend.unwrap_or_else(|| say!("leave it empty if the value is missing"));
             let message = say!("the text {text:?} where a number is expected");

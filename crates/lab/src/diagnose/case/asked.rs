@@ -96,7 +96,9 @@ impl Asked {
             .find(|found| !found.is_empty())
             .map(Asked::These)
             .ok_or_else(|| {
-                let all = say!("`--why all` accounts for every effect that the case can have");
+                let all = say!(
+                    "`--why all` (in Python, `why=\"all\"`) accounts for every effect that the case can have"
+                );
                 let ids = known.clone().map(|effect| effect.id.as_str());
                 let near = nearest(words, ids).map(str::to_owned);
                 let near = near.or_else(|| respelt(wanted, known.clone().map(names)));

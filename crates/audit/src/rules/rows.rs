@@ -113,14 +113,11 @@ pub(super) fn derivative(seen: &Seen<'_>) -> Vec<Hit> {
             // A coefficient may hold a conversion to the unit of the result.
             let right = [derivatives[i], derivatives[i] * line.to_y, line.c];
             // Sheets print amounts, too: a sign is only held against one that has signs, or where it turns a correlation.
-            let signs_count = signed
-                || seen
-                    .claimed
-                    .correlations
-                    .iter()
-                    .any(|pair| pair.r != 0.0 && [pair.a, pair.b].contains(&i));
-            let near = |x: &f64| !far(c, *x, 0.01) && !(signs_count && x * c.value < 0.0);
-            let wrong = !right.iter().any(near);
+            let mut pairs = seen.claimed.correlations.iter();
+            let signs_count =
+                signed || pairs.any(|pair| pair.r != 0.0 && [pair.a, pair.b].contains(&i));
+            let is_turned = |x: f64| signs_count && x * c.value < 0.0;
+            let wrong = right.iter().all(|x| far(c, *x, 0.01) || is_turned(*x));
             wrong.then(|| {
                 Hit::of(
                     Some(i),

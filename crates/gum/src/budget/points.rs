@@ -373,7 +373,8 @@ fn written(field: &str, unit: &HeadUnit, sheet: &Sheet) -> Written {
 /// Whether a text is a whole number that does not fit into 64 bits.
 fn is_long_whole(text: &str) -> bool {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
-    digits.bytes().all(|byte| byte.is_ascii_digit()) && text.parse::<i64>().is_err()
+    let is_whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    is_whole && text.parse::<i64>().is_err()
 }
 
 /// Whether a text is the infinity of TOML.

@@ -92,9 +92,7 @@ impl Act {
         let squares: f64 = factors.iter().map(|factor| factor * factor).sum();
         (squares / factors.len().max(1) as f64).sqrt()
     }
-}
 
-impl Act {
     /// The part that is in proportion to the readings.
     pub(super) fn of_gain(self) -> Act {
         let share = self.in_proportion();

@@ -29,6 +29,8 @@ pub(super) struct Draft<'a> {
     levels: HashMap<String, u32>,
     faults: Vec<Fault>,
     refused: usize,
+    /// The first field that was refused.
+    first_refused: Option<String>,
     pub(super) style: Style,
     /// Whether every decimal sign so far may mark thousands.
     pub(super) only_thousands: bool,
@@ -66,6 +68,7 @@ impl<'a> Draft<'a> {
             levels: HashMap::new(),
             faults: Vec::new(),
             refused: 0,
+            first_refused: None,
             style: Style::Unknown,
             only_thousands: true,
         }
@@ -109,6 +112,7 @@ impl<'a> Draft<'a> {
             return;
         }
         self.refused += 1;
+        self.first_refused.get_or_insert_with(|| field.to_owned());
         // Times that cannot be read are so in every row of the column: one says it.
         let is_time = read.is_none() && is_like_a_time(field);
         let (shown, expected) = match is_time {
@@ -227,7 +231,29 @@ impl<'a> Draft<'a> {
         }
     }
 
+    /// Whether a column that should hold numbers has words in all its rows.
+    fn holds_words(&self) -> bool {
+        /// One word alone is a slip.
+        const SEVERAL: usize = 3;
+        let has_none = self.numbers.iter().all(|number| number.is_nan());
+        let is_number_with_more = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
+        let is_word = self.first_refused.as_deref();
+        self.content == Content::Numbers
+            && has_none
+            && self.refused >= SEVERAL
+            && is_word.is_some_and(|text| !is_number_with_more(text))
+    }
+
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {
+        if self.holds_words() {
+            self.faults.truncate(1);
+            for fault in &mut self.faults {
+                let name = &self.heading.name;
+                fault.help = Some(say!(
+                    "no field of this column is a number: if they are labels, declare it so (in an experiment `[columns] {name} = \"run\"`, \"factor\", \"position\" …), else name the column of the numbers"
+                ));
+            }
+        }
         let more = self.refused.saturating_sub(self.faults.len());
         if let Some(last) = self.faults.last_mut().filter(|_| more > 0) {
             last.message = say!(

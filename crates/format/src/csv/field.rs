@@ -77,7 +77,7 @@ impl Field {
                 false => Field::Whole(value),
             });
         }
-        if MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) {
+        if says_missing(text) {
             return Some(Field::Whole(f64::NAN));
         }
         if sheet.has_decimal_commas()
@@ -102,6 +102,11 @@ impl Field {
             Field::Clock(_) => None,
         }
     }
+}
+
+/// Whether a word says that there is no number.
+pub(super) fn says_missing(text: &str) -> bool {
+    MISSING.iter().any(|word| text.eq_ignore_ascii_case(word))
 }
 
 /// The number in a field of a table; NaN for one that is missing, nothing for what is no number.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::columns::Columns;
 use super::faults::NOT_A_NUMBER;
-use super::field::number;
+use super::field::{number, says_missing};
 use super::sheet::{Row, Sheet};
 use gumption_core::quantity::Decimal;
 use gumption_fault::{Fault, say};
@@ -162,7 +162,7 @@ fn chance(
 }
 
 fn is_word(text: &str) -> bool {
-    text.contains(char::is_alphabetic) && !text.contains(char::is_numeric)
+    text.contains(char::is_alphabetic) && !text.contains(char::is_numeric) && !says_missing(text)
 }
 
 #[cfg(test)]
@@ -188,6 +188,7 @@ mod tests {
             "n,V\nA,1.0\nB,1.1\n3,1.2\nC,1.1\n",
             "n,V\n1,1.0\n2,1.1\n3,1.2\n4a,1.1\n",
             "n,V\n1,1.0\nmean,1.1\n",
+            "n,V\n1,1.0\n2,1.1\n3,1.2\n4,NA\n",
         ] {
             assert_eq!(found(rows), None, "{rows}");
         }

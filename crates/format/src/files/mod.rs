@@ -210,7 +210,12 @@ impl<'a> Files<'a> {
         };
         names.retain(|name| Path::new(name).extension() == missing.extension());
         names.sort_unstable();
-        nearest(&name_of(missing)?, names.iter().map(String::as_str)).map(str::to_owned)
+        // Endings are the same: they make no two names alike.
+        let stem = |name: &str| Path::new(name).file_stem()?.to_str().map(str::to_owned);
+        let stems: Vec<String> = names.iter().filter_map(|name| stem(name)).collect();
+        let near = nearest(&stem(&name_of(missing)?)?, stems.iter().map(String::as_str))?;
+        let mut names = names.into_iter();
+        names.find(|name| stem(name).as_deref() == Some(near))
     }
 
     /// The same for every way to write the path of one file.

@@ -33,14 +33,24 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     let listed: Vec<&str> = listed.map(|(name, _)| name.as_str()).collect();
     let mut found: Vec<(SmolStr, Stated<ParameterTable>)> = Vec::new();
     let mut place = 0..0;
+    let is_taken_in = |outline: &Outline| {
+        let mut needs = outline.needs.iter();
+        needs.any(|(name, _)| known.contains(name) && !is_left(outline, name))
+    };
+    let takes_in = outlines.iter().any(|(_, outline)| is_taken_in(outline));
     for (equation, outline) in outlines {
         place = equation;
-        let given = outline.gives.as_ref().map(|(name, _)| name);
+        let is_other_letter = |name: &str| {
+            let mut others = known.iter().filter(|other| !is_left(&outline, other));
+            others.any(|other| other.to_lowercase() == name.to_lowercase())
+        };
         for (name, _) in &outline.needs {
             let is_listed =
                 found.iter().any(|(other, _)| other == name) || listed.contains(&name.as_str());
-            let is_known = given == Some(name) || known.contains(name);
-            if !is_listed && !is_known && !is_slip(name, &known) {
+            let is_known = is_left(&outline, name) || known.contains(name);
+            // `T` is another than `t`, but not where the equations would take in nothing else.
+            let is_slip = is_slip(name, &known) || (!takes_in && is_other_letter(name));
+            if !is_listed && !is_known && !is_slip {
                 let table = Stated {
                     value: ParameterTable::default(),
                     span: place.clone(),
@@ -64,6 +74,11 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     };
     let table = source.table.parameter.get_or_insert_with(|| Box::new(none));
     table.value.entries.extend(found);
+}
+
+/// Whether a name is the left side of its equation.
+fn is_left(outline: &Outline, name: &str) -> bool {
+    (outline.gives.as_ref()).is_some_and(|(given, _)| given == name)
 }
 
 /// Where each equation stands, and its names; `None` where one of them cannot be read.

@@ -170,7 +170,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
     case.columns.extend(columns.iter().map(|column| {
         let written = column.term.written();
         let data = Data::Numbers(fitted.design.spread(&written.values));
-        Column::new(&column.name, Role::Covariate, &written.unit, data)
+        Column::new(&column.name, Role::Term, &written.unit, data)
     }));
     let texts = equations.iter().enumerate();
     let texts = texts.map(|(response, equation)| equation.text(fitted, response));

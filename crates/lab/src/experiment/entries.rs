@@ -103,6 +103,8 @@ words! {
         Stimulus "stimulus" | "input",
         /// A condition that was recorded and that the model may or may not use.
         Covariate "covariate" | "condition",
+        /// A term that was found, row by row: the model takes it in as it stands, and nothing else depends on it.
+        Term "term",
         /// An angle of a head, table or phase, whose harmonics may matter.
         Angle "angle",
         /// When a row was recorded.

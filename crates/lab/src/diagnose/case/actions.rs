@@ -203,7 +203,9 @@ impl Checker<'_> {
 /// The rows of a recording once more, in the same order or the last one first: what was applied is that
 /// of the row, times go on in the same steps after a pause, runs are new ones, and conditions follow the same course as before.
 pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
-    use crate::experiment::entries::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
+    use crate::experiment::entries::RoleWord::{
+        Count, Covariate, Order, Run, Term, Time, Uncertainty,
+    };
     let count = recorded.count;
     let mut places: Vec<usize> = (0..count).collect();
     if reversed {
@@ -214,7 +216,7 @@ pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reverse
         match column.role {
             Time => *data = gone_on(own, reversed),
             Order => *data = continued(column, count).unwrap_or(Data::Absent),
-            Covariate | Count | Uncertainty => *data = own.clone(),
+            Covariate | Term | Count | Uncertainty => *data = own.clone(),
             Run => renewed(data),
             _ => {}
         }

@@ -20,7 +20,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = vec![cell(fitted, EffectId::Zero, Node::Output, shift())];
     for (column, data) in fitted.case().columns.iter().enumerate() {
         // The thermometer of a correction may be wrong as a reference may, and so may the coefficient beside it.
-        let taken_in = data.role != Role::Output && fitted.in_model(column);
+        let taken_in = !matches!(data.role, Role::Output | Role::Term) && fitted.in_model(column);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
         let has_scale = !data.unit.is_one() || fitted.is_direct(column);
         if taken_in && has_scale && data.numbers().is_some() {

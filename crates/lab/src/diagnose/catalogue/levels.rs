@@ -89,6 +89,41 @@ impl Factor<'_> {
         let others = self.levels[1..].iter();
         others.map(|level| self.modifier(*level)).collect()
     }
+
+    /// What levels may have where the mean is the model's own.
+    fn shifts(&self) -> Vec<Variation> {
+        // With two levels a shift of one is a shift between both.
+        let alone = match self.levels.len() {
+            2 => Vec::new(),
+            _ => self.alone(),
+        };
+        kinds([vec![form("", self.differences())], alone, self.onwards()])
+    }
+
+    /// What levels may have where the model has nothing that they have in common.
+    fn values(&self) -> Vec<Variation> {
+        let each = self.levels.iter().map(|level| self.modifier(*level));
+        let each = form("", each.collect());
+        kinds([vec![each], self.alone(), self.onwards()])
+    }
+
+    /// One level has a value of its own.
+    fn alone(&self) -> Vec<Variation> {
+        let levels = self.levels.iter();
+        let one = |level: &u32| {
+            let label = format!("{} {}", self.column.name, self.text(*level));
+            form(label, vec![self.modifier(*level)])
+        };
+        levels.map(one).collect()
+    }
+
+    /// All levels from one on.
+    fn onwards(&self) -> Vec<Variation> {
+        match self.column.role {
+            Role::Run if self.levels.len() > 3 => changes(self),
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// Cells of the columns of labels.
@@ -134,26 +169,18 @@ pub(super) fn indicator(labels: &Labels, level: u32) -> Vec<f64> {
 
 /// Every level has a value of its own; or only one has; or all from one on, in the order of the recording.
 fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
-    let (name, levels) = (&factor.column.name, &factor.levels);
-    let all = form("", factor.differences());
-    let one = |level: &u32| {
-        let label = format!("{name} {}", factor.text(*level));
-        form(label, vec![factor.modifier(*level)])
-    };
-    // With two levels a shift of one is a shift between both.
-    let alone: Vec<Variation> = match levels.len() {
-        2 => Vec::new(),
-        _ => levels.iter().map(one).collect(),
-    };
-    let onwards = match factor.column.role {
-        Role::Run if levels.len() > 3 => changes(factor),
-        _ => Vec::new(),
-    };
-    let forms = kinds([vec![all], alone, onwards]);
+    let name = &factor.column.name;
     let ids = [EffectId::LevelShift, EffectId::LevelScale];
     let nodes = fitted.offset_and_scale().into_iter().zip(ids);
     let cells = nodes.map(|(node, id)| {
-        let mut cell = on_node(fitted, id, name, node, forms.clone());
+        let on_node = |forms: Vec<Variation>| on_node(fitted, id, name, node, forms);
+        let ones = Modifier::number(vec![1.0; fitted.rows()], "1");
+        let in_common = &on_node(vec![form("", vec![ones])]).variants[0];
+        let left = fitted.absorbed().leaves_of(&in_common.columns(fitted));
+        let mut cell = on_node(match left.iter().all(|left| *left) {
+            true => factor.values(),
+            false => factor.shifts(),
+        });
         if node == Node::Gain && factor.column.role == Role::Run {
             // A run that is written in another unit.
             let single = cell.variants.iter().filter(|form| form.coefficients() == 1);

@@ -33,4 +33,5 @@ mod refusals;
 mod rounding;
 mod shapes;
 mod sizes;
+mod tables;
 mod warmth;

@@ -2,7 +2,7 @@
 //! output of 2.5 V at rest need not scatter more than one of 0 V.
 //!
 //! Whether it does is read from neighbours: each residual against the straight line between the residuals
-//! with the next smaller and the next larger modelled value, under the same labels. What a model leaves out
+//! with the next smaller and the next larger stimulus, or modelled value where there are several stimuli, under the same labels. What a model leaves out
 //! varies little between neighbours, noise does not. The differences count by the likelihood of Student's
 //! distribution with few degrees of freedom, so that single wrong readings have little weight.
 
@@ -164,7 +164,9 @@ pub(super) fn estimate(
     ) {
         return None;
     }
-    let differences = differences(groups(design), values, residuals);
+    let course = course(design, response);
+    let course = course.as_deref().unwrap_or(values);
+    let differences = differences(groups(design), (course, values), residuals);
     if differences.len() < LEAST {
         return None;
     }
@@ -205,20 +207,30 @@ pub(super) fn scale(squares: &[f64]) -> f64 {
     scale
 }
 
-/// What neighbours within groups of blocks leave of each other.
+/// Along what residuals have neighbours: the only column that the model takes in, since on both sides of a peak it gives the same with
+/// what it leaves out on either; nothing where there are several.
+pub(super) fn course(design: &Design<'_>, response: usize) -> Option<Vec<f64>> {
+    let (case, first) = (design.case, design.case.parameters.len());
+    let used = case.equations.uses(response);
+    let mut columns = (0..case.columns.len()).filter(|c| used.contains(&(first + c)));
+    let only = columns.next().filter(|_| columns.next().is_none())?;
+    Some(design.reduced(case.columns[only].numbers()?))
+}
+
+/// What neighbours along a course, within groups of blocks, leave of each other, at modelled values.
 pub(super) fn differences(
     groups: Vec<Vec<usize>>,
-    values: &[f64],
+    (course, values): (&[f64], &[f64]),
     residuals: &DVector<f64>,
 ) -> Vec<Difference> {
     let mut all = Vec::new();
     for mut group in groups {
-        group.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+        group.sort_by(|a, b| course[*a].total_cmp(&course[*b]));
         for three in group.windows(3) {
             let [low, middle, high] = [three[0], three[1], three[2]];
-            let gap = values[high] - values[low];
+            let gap = course[high] - course[low];
             let part = if gap > 0.0 {
-                (values[middle] - values[low]) / gap
+                (course[middle] - course[low]) / gap
             } else {
                 0.5
             };

@@ -51,10 +51,10 @@ pub(super) struct Scales {
     pub draws: Vec<DVector<f64>>,
 }
 
-/// The column whose labels scatter most unlike one another, where they do.
+/// The column whose labels scatter most unlike one another, where they do; neighbours are those along a course.
 pub(super) fn estimate(
     design: &Design<'_>,
-    values: &[f64],
+    course: &[f64],
     residuals: &DVector<f64>,
 ) -> Option<Scales> {
     let columns = design.case.columns.iter().enumerate();
@@ -63,12 +63,12 @@ pub(super) fn estimate(
     let tried = labelled.iter().filter_map(|column| {
         let groups = groups(design, *column)?;
         let blocks: Vec<&[usize]> = groups.iter().map(|(_, blocks)| &blocks[..]).collect();
-        let apart = Apart::of(&blocks, values, residuals, design.case.settings.seed)?;
+        let apart = Apart::of(&blocks, course, residuals, design.case.settings.seed)?;
         Some((*column, groups, apart))
     });
     let (column, groups, apart) = tried.min_by(|a, b| a.2.p.total_cmp(&b.2.p))?;
     let spread = |of: &[f64]| {
-        let mut out = DVector::zeros(values.len());
+        let mut out = DVector::zeros(course.len());
         for ((_, blocks), u) in groups.iter().zip(of) {
             blocks.iter().for_each(|block| out[*block] = *u);
         }
@@ -113,13 +113,13 @@ impl Apart {
     /// `None` where one of them is too small.
     fn of(
         groups: &[&[usize]],
-        values: &[f64],
+        course: &[f64],
         residuals: &DVector<f64>,
         seed: u64,
     ) -> Option<Apart> {
         let squares = |groups: &[&[usize]]| -> Vec<f64> {
             let groups = groups.iter().map(|group| group.to_vec()).collect();
-            let found = differences(groups, values, residuals).into_iter();
+            let found = differences(groups, (course, course), residuals).into_iter();
             found.map(|one| one.size * one.size).collect()
         };
         let each = groups.iter().map(|group| squares(&[*group]));

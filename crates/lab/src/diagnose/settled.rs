@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Origin, Role};
 use super::catalogue::modifiers::largest;
-use super::catalogue::{applied, signal};
+use super::catalogue::{applied, signal, stimuli_of};
 use super::design::{Design, Unknown};
 use super::evidence;
 use super::fit::{self, Fit, NoFit, Weights};
@@ -104,7 +104,14 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
         return Ok((fit, seen));
     };
     let claimed = spread_out(design, &weighted);
-    Ok((weighted, claimed))
+    match claimed.is_spread_out() {
+        true => Ok((weighted, claimed)),
+        // Weights that do not hold beside the fit that they give are none.
+        false => {
+            let even = estimated(design, &fit);
+            Ok((fit, even))
+        }
+    }
 }
 
 /// The noise that a model leaves, where it grows with the reading or differs from label to label.
@@ -115,22 +122,15 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut draws = vec![claimed.u.clone(); DRAWS];
     for response in 0..design.case.responses.len() {
         let rows = response * blocks;
-        let values = design.reduced(&fit.linear.values[response]);
+        let readings = quantities(design, fit, response);
+        let values = &readings[0].1;
+        let course = noise_growth::course(design, response);
         let own = fit.residuals.rows(rows, blocks).into_owned();
         let plain = claimed.u.rows(rows, blocks).into_owned();
-        let by_label = noise_labels::estimate(design, &values, &own);
+        let by_label = noise_labels::estimate(design, course.as_deref().unwrap_or(values), &own);
         let even = DVector::from_element(blocks, 1.0);
         let scales = by_label.as_ref().map_or(&even, |labels| &labels.best);
         let errors = own.component_div(scales);
-        let mut readings = vec![(Quantity::Reading, values)];
-        // What effects add to a constant is no signal.
-        if has_stimulus(design.case) {
-            let signal = design.reduced(&signal(design, fit, response));
-            readings.push((Quantity::Signal, signal));
-            let applied = applied(design, fit, response);
-            let applied = applied.map(|applied| (Quantity::Applied, design.reduced(&applied)));
-            readings.extend(applied);
-        }
         let grown = |(_, y): &(_, Vec<f64>)| noise_growth::estimate(design, response, y, &errors);
         let each = readings.iter().map(|reading| (reading, grown(reading)));
         let gain = |likely: &Option<Likely>| likely.as_ref().map_or(0.0, |likely| likely.gain);
@@ -178,6 +178,39 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         claimed.draws = draws;
     }
     claimed
+}
+
+/// What the noise of a response may grow with: the reading first, and what it is above its zero. Where constant terms of the model are
+/// that of another value of the stimuli than zero, which is anywhere, they are no zero of the reading.
+fn quantities(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<(Quantity, Vec<f64>)> {
+    let case = design.case;
+    let values = &fit.linear.values[response];
+    // What effects add to a constant is no signal.
+    let above = has_stimulus(case).then(|| {
+        let signal = signal(design, fit, response);
+        let has_constant = signal != *values;
+        let stimuli = stimuli_of(case, response);
+        // 0 °C is a temperature like any other.
+        let has_zero = !stimuli.iter().any(|c| case.columns[*c].unit.is_point());
+        match applied(design, fit, response) {
+            Some(applied) if has_constant && is_same(&applied, &signal) => {
+                Some((Quantity::Signal, signal))
+            }
+            Some(applied) => has_zero.then_some((Quantity::Applied, applied)),
+            None => has_constant.then_some((Quantity::Signal, signal)),
+        }
+    });
+    let reading = (Quantity::Reading, values.clone());
+    let all = std::iter::once(reading).chain(above.flatten());
+    all.map(|(with, values)| (with, design.reduced(&values)))
+        .collect()
+}
+
+/// Whether numbers are the same but for their rounding.
+fn is_same(one: &[f64], other: &[f64]) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    let mut pairs = one.iter().zip(other);
+    pairs.all(|(a, b)| (a - b).abs() <= ROUNDING * largest(one))
 }
 
 /// Whether something is applied, to which an output answers.

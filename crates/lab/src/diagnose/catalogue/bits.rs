@@ -8,6 +8,9 @@ use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{Observed, Role};
 use crate::recording::resolution::{Steps, steps};
 
+/// Codes of the smallest converters, of eight bits: whole numbers over fewer may be anything else that is counted.
+const CODES: f64 = 255.0;
+
 /// Cells of the outputs that may be those of converters, and of stimuli that are their codes.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let responses = 0..fitted.case().responses.len();
@@ -42,7 +45,9 @@ fn of_codes(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let (values, label) = (fitted.numbers(column), fitted.label(column));
     let is_code = |x: &f64| *x >= 0.0 && x.fract() == 0.0;
     let recorded = &fitted.design.recording().columns[column];
-    if !recorded.unit.is_one() || !recorded.numbers()?.iter().all(is_code) {
+    let numbers = recorded.numbers()?;
+    let (least, most) = range(numbers);
+    if !recorded.unit.is_one() || !numbers.iter().all(is_code) || most - least < CODES {
         return None;
     }
     let codes = Codes {
@@ -185,11 +190,14 @@ impl Base {
     }
 }
 
-/// Codes have steps of 1; other outputs say their step, show it, or say their full scale.
+/// Codes are whole numbers; other outputs say their step, show it, or say their full scale.
 fn base(fitted: &FittedModel<'_>, response: usize) -> Option<Base> {
     let case = fitted.case();
     let output = &case.responses[response];
-    if output.unit.is_one() {
+    let readings = fitted.design.observed(response);
+    let (least, most) = range(&readings);
+    let is_code = |reading: &f64| reading.fract() == 0.0;
+    if output.unit.is_one() && readings.iter().all(is_code) && most - least >= CODES {
         return Some(Base::least(1.0));
     }
     let Observed::Column(column) = output.observed else {

@@ -189,12 +189,17 @@ pub(super) fn plain(
     cell(fitted, id, Node::Output, along, variants)
 }
 
-/// A cell of what is made of neighbouring rows: likely where they follow each other in time, and not where a table is sorted.
-pub(super) fn slip(fitted: &FittedModel<'_>, id: EffectId, variants: Vec<Variation>) -> Cell {
-    Cell {
+/// A cell of what is made of neighbouring rows: likely where they follow each other in time, and not where a table is sorted; nothing
+/// where readings sorted it.
+pub(super) fn slip(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    variants: Vec<Variation>,
+) -> Option<Cell> {
+    (!fitted.is_sorted_by_reading()).then(|| Cell {
         odds: if fitted.is_ordered() { 1.0 } else { HIGHER },
         ..plain(fitted, id, "row", variants)
-    }
+    })
 }
 
 /// A form by its time constants, of which a single one is its shape.

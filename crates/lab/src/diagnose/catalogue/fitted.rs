@@ -411,19 +411,6 @@ impl<'f> FittedModel<'f> {
         self.case().columns[column].unit.after_number()
     }
 
-    /// Whether the order of the rows says something that no column says: it was recorded, or the rows are neither
-    /// sorted by a column nor those of runs and factors, which may stand in any order.
-    pub fn is_ordered(&self) -> bool {
-        let sorted = |column: &usize| {
-            let numbers = self.design.reduced(self.numbers(*column));
-            numbers.windows(2).all(|pair| pair[0] <= pair[1])
-                || numbers.windows(2).all(|pair| pair[0] >= pair[1])
-        };
-        let is_label = |role: Role| matches!(role, Role::Run | Role::Factor);
-        let labelled = || (self.case().columns.iter()).any(|column| is_label(column.role));
-        self.clock.column.is_some() || !(labelled() || self.numeric().iter().any(sorted))
-    }
-
     /// Seconds in a unit of the clock, where it is a time.
     pub fn seconds(&self) -> Option<f64> {
         let column = &self.case().columns[self.clock.column?];
@@ -493,20 +480,11 @@ pub fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
     signal
 }
 
-/// The model less what it gives where nothing is applied, where a factor stands for the constant that other models add, as in
-/// `f0*(1 + b*p)`; `None` where zero is no value that stimuli can have, or gives nothing else than the model.
+/// The model less what it gives where nothing is applied; `None` where it has no value there, or gives nothing else than the model.
 pub fn applied(design: &Design<'_>, fit: &Fit, response: usize) -> Option<Vec<f64>> {
     let case = design.case;
-    if !constant_terms(design, fit, response).is_empty() {
-        return None;
-    }
-    let used = case.equations.uses(response);
     let first = case.parameters.len();
-    let stimuli = case.with_role(Role::Stimulus);
-    let stimuli: Vec<usize> = stimuli.filter(|c| used.contains(&(first + c))).collect();
-    if stimuli.is_empty() || stimuli.iter().any(|c| case.columns[*c].unit.is_point()) {
-        return None;
-    }
+    let stimuli = stimuli_of(case, response);
     let without = |row: usize| {
         let mut symbols = design.symbols(row, &fit.unknowns);
         stimuli
@@ -519,7 +497,15 @@ pub fn applied(design: &Design<'_>, fit: &Fit, response: usize) -> Option<Vec<f6
         .map(|(row, value)| value - without(row))
         .collect();
     let is_another = all.iter().zip(values).any(|(own, value)| own != value);
-    (is_another && all.iter().all(|own| own.is_finite())).then_some(all)
+    let is_there = is_another && !stimuli.is_empty() && all.iter().all(|own| own.is_finite());
+    is_there.then_some(all)
+}
+
+/// The stimuli that the equation of a response takes in.
+pub fn stimuli_of(case: &Case, response: usize) -> Vec<usize> {
+    let (used, first) = (case.equations.uses(response), case.parameters.len());
+    let stimuli = case.with_role(Role::Stimulus);
+    stimuli.filter(|c| used.contains(&(first + c))).collect()
 }
 
 /// Parameters that are added as they stand. Values of specimens, one for each label, are no zero where nothing else varies:

@@ -58,6 +58,7 @@ mod levels;
 mod limits;
 pub(super) mod modifiers;
 pub(super) mod norm;
+mod order;
 mod parameters;
 mod powers;
 pub(super) mod readout;
@@ -79,7 +80,7 @@ use nalgebra::{DMatrix, DVector};
 pub use by_label::{closer_by_label, may_split, under_one_label};
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::{Finer, Forms};
-pub use fitted::{FittedModel, Node, applied, signal};
+pub use fitted::{FittedModel, Node, applied, signal, stimuli_of};
 
 use super::case::Case;
 use super::evidence;

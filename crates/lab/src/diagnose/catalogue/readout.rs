@@ -159,7 +159,7 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
             variant(&label, vec![of(&model, first, late)])
         }));
     }
-    Some(slip(fitted, EffectId::Shifted, variants))
+    slip(fitted, EffectId::Shifted, variants)
 }
 
 /// Fewer readings in a row are alike by chance.

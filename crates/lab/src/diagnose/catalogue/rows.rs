@@ -51,14 +51,14 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.push(plain(fitted, EffectId::Outlier, "row", outliers));
     }
     if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
-        cells.push(swapped(fitted));
+        cells.extend(swapped(fitted));
         cells.push(reversed(fitted));
     }
     cells
 }
 
 /// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
-fn swapped(fitted: &FittedModel<'_>) -> Cell {
+fn swapped(fitted: &FittedModel<'_>) -> Option<Cell> {
     let deleted = Deleted::new(fitted);
     let rows = fitted.rows();
     let mut pairs: BTreeSet<[usize; 2]> = (1..rows).map(|row| [row - 1, row]).collect();

@@ -85,26 +85,27 @@ fn what_one_operator_makes_of_one_part_is_a_combination() {
     assert_eq!(variant["label"], "part p3, operator Li", "{found}");
 }
 
-/// Four flow meters of forty rows each, with errors by the meter and the deviation of the temperature from its mean.
-fn flow_meters(seed: u64, error: impl Fn(u32, f64) -> f64) -> String {
+/// Four flow meters of forty rows each, with errors by the meter, the flow and the deviation of the temperature from its mean.
+fn flow_meters(seed: u64, error: impl Fn(u32, f64, f64) -> f64) -> String {
     let mut noise = Noise(seed);
     let mut rows = "q [l/min],f [Hz],water [°C],meter\n".to_owned();
     for row in 0..160 {
         let (meter, flow) = (row / 40, 5.0 + f64::from(7 * row % 40));
         let warm = 3.0 * libm::sin(std::f64::consts::TAU * f64::from(7 * row % 160) / 160.0);
-        let shown = 20.0 * flow + error(meter, warm) + 0.4 * noise.normal();
+        let shown = 20.0 * flow + error(meter, flow, warm) + 0.4 * noise.normal();
         let _ = writeln!(rows, "{flow},{shown:.3},{:.3},M{}", 20.0 + warm, meter + 1);
     }
     rows
 }
 
+const METERS: &str = "equations = \"f = f0 + K*q\"\n[columns]\nf = \"output\"\nq = \"stimulus\"\nwater = \"covariate\"\nmeter = \"factor\"\n";
+
 /// What acts under one label, or differs from one to another, makes that label scatter more than others: noise that differs by label
 /// is not taken for granted before effects are looked for under labels.
 #[test]
 fn a_coefficient_of_one_instrument_is_no_noise_of_it() {
-    const CASE: &str = "equations = \"f = f0 + K*q\"\n[columns]\nf = \"output\"\nq = \"stimulus\"\nwater = \"covariate\"\nmeter = \"factor\"\n";
-    let of_one = |meter: u32, warm: f64| if meter == 1 { 2.0 * warm } else { 0.0 };
-    let of_each = |meter: u32, warm: f64| [0.9, -1.4, 0.2, 0.5][meter as usize] * warm;
+    let of_one = |meter: u32, _: f64, warm: f64| if meter == 1 { 2.0 * warm } else { 0.0 };
+    let of_each = |meter: u32, _: f64, warm: f64| [0.9, -1.4, 0.2, 0.5][meter as usize] * warm;
     for (name, rows, words) in [
         ("of-one-meter", flow_meters(81, of_one), "only in meter M2"),
         (
@@ -113,7 +114,7 @@ fn a_coefficient_of_one_instrument_is_no_noise_of_it() {
             "another size in each meter",
         ),
     ] {
-        let found = diagnosed(name, &rows, CASE);
+        let found = diagnosed(name, &rows, METERS);
         assert_eq!(first_names(&found), ["tempco-bias"], "{found}");
         let variant = &found["effects"][0]["named"][0]["variants"][0];
         let label = variant["label"].as_str().unwrap_or_default();
@@ -121,7 +122,7 @@ fn a_coefficient_of_one_instrument_is_no_noise_of_it() {
     }
     // One that really scatters more than the others is left in peace.
     let mut noise = Noise(83);
-    let mut rows = flow_meters(84, |_, _| 0.0);
+    let mut rows = flow_meters(84, |_, _, _| 0.0);
     rows = rows
         .lines()
         .map(|line| match line.strip_suffix(",M2") {
@@ -136,8 +137,27 @@ fn a_coefficient_of_one_instrument_is_no_noise_of_it() {
             None => line.to_owned() + "\n",
         })
         .collect();
-    let found = diagnosed("scatter-of-one-meter", &rows, CASE);
+    let found = diagnosed("scatter-of-one-meter", &rows, METERS);
     assert_eq!(found["verdict"], "none", "{found}");
+}
+
+/// The bend of one meter is neither a change of its scale, beside which the others have heavy tails, nor, beside a coefficient of
+/// that meter, a bend of all.
+#[test]
+fn what_one_instrument_does_is_told_beside_what_all_do() {
+    let bend = |flow: f64| 0.03 * flow * flow;
+    let of_one = |meter: u32, flow: f64, _: f64| if meter == 1 { bend(flow) } else { 0.0 };
+    let found = diagnosed("bend-of-one-meter", &flow_meters(86, of_one), METERS);
+    assert_eq!(first_names(&found), ["quadratic"], "{found}");
+    let variant = &found["effects"][0]["named"][0]["variants"][0];
+    let label = variant["label"].as_str().unwrap_or_default();
+    assert!(label.contains("only in meter M2"), "{label}");
+    let beside =
+        |meter: u32, flow: f64, warm: f64| bend(flow) + if meter == 1 { 2.0 * warm } else { 0.0 };
+    let found = diagnosed("bend-and-one-meter", &flow_meters(87, beside), METERS);
+    let mut names = first_names(&found);
+    names.sort();
+    assert_eq!(names, ["quadratic", "tempco-bias"], "{found}");
 }
 
 /// Up and down in five mountings, in one of which the cell bends: a scale that wanders would look alike.

@@ -12,12 +12,16 @@ use crate::diagnose::noise::Claimed;
 
 impl<'i> Inquiry<'i> {
     /// Noise that differs from label to label may be an effect that acts under one of them, or has another size under each; and so may a
-    /// scale that wanders, beside which nothing is found. What is found stands instead if it stands beside such noise, among all effects
-    /// that may do so.
+    /// scale that wanders, beside which nothing is found; and so may estimated noise beside what was found that wanders, or has heavier
+    /// tails than normal errors. What is found stands instead if it stands beside such noise, among all effects that may do so.
     pub(super) fn look_under_labels(&mut self, starts: Vec<Claimed>) -> Result<(), Failure> {
-        let differs = self.answer.claimed.by_label.iter().any(Option::is_some);
-        let wanders = self.found_nothing() && self.scale_by_chance.is_some();
-        if !(differs || wanders) || !may_split(&self.candidates.fitted) {
+        let Answer { claimed, .. } = &self.answer;
+        let may_be_effects = match self.found_nothing() {
+            true => self.scale_by_chance.is_some(),
+            false => claimed.is_estimated() && (claimed.wanders() || claimed.tails.heavy.is_some()),
+        };
+        let differs = claimed.by_label.iter().any(Option::is_some);
+        if !(differs || may_be_effects) || !may_split(&self.candidates.fitted) {
             return Ok(());
         }
         let mut forms = Forms::default();
@@ -37,8 +41,11 @@ impl<'i> Inquiry<'i> {
         self.answer = self.asked(starts[0].clone(), 0.7, 0.7)?;
         self.begin(starts)?;
         self.settings.alpha = settings.alpha;
-        let finds_more = self.answer.found() > answer.found();
-        if !finds_more || self.answer.log_posterior() < answer.log_posterior() {
+        let is_less_likely = self.answer.log_posterior() < answer.log_posterior();
+        let [open, before] = [&self.answer, &answer].map(|one| one.unexplained().0);
+        let leaves_no_more = answer.found() == 0 || open <= before;
+        let is_better = self.answer.found() > 0 && !is_less_likely && leaves_no_more;
+        if !is_better {
             self.candidates = candidates;
             self.answer = answer;
             self.settings = settings;

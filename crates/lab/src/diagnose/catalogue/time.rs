@@ -1,5 +1,6 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use nalgebra::DVector;
@@ -101,16 +102,25 @@ fn began_at(fitted: &FittedModel<'_>) -> f64 {
     range(&fitted.clock.values).0
 }
 
-/// The cycles of the calendar that the recording can show: what each is, its name, and its period in the unit of the time.
+/// The cycles of the calendar that the recording can show, in more phases than a wave beside a constant has sizes: what each is, its
+/// name, and its period in the unit of the time.
 pub(super) fn cycles(fitted: &FittedModel<'_>) -> Vec<(EffectId, &'static str, f64)> {
     /// A period is told from so much of it on, and up to so many.
     const MOST: f64 = 60.0;
+    /// Sizes of a sine, a cosine and a constant.
+    const SIZES: usize = 3;
+    /// Phases are apart by a thousandth of a cycle or more.
+    const APART: f64 = 1e3;
     let span = fitted.clock.span();
+    let phases = |period: f64| {
+        let phase = |t: &f64| (APART * (t / period).rem_euclid(1.0)).round() as u32 % APART as u32;
+        let phases = fitted.clock.values.iter().map(phase);
+        phases.collect::<BTreeSet<u32>>().len()
+    };
     let shown = |(id, name, seconds, least): (EffectId, &'static str, f64, f64)| {
         let period = seconds / fitted.seconds()?;
-        (least * period..=MOST * period)
-            .contains(&span)
-            .then_some((id, name, period))
+        let is_shown = (least * period..=MOST * period).contains(&span) && phases(period) > SIZES;
+        is_shown.then_some((id, name, period))
     };
     let all = [
         (EffectId::Season, "1 year", 365.2422 * 86_400.0, 0.75),

@@ -6,7 +6,7 @@ use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::{Place, Question};
 use super::search::Search;
-use super::slots::{Explanation, Found, slots};
+use super::slots::{Explanation, Found, NAMELESS, slots};
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
@@ -14,7 +14,8 @@ use super::unlisted::Restated;
 const SEEN: f64 = 4.0;
 
 /// The explanation by one or two effects, named or tentative, whose form is off by less than makes it another: beside them
-/// nothing finds more than such a departure leaves. More than two are a description.
+/// nothing finds more than such a departure leaves. More than two are a description, and so is a form of many places; and of what
+/// several effects do less well than what has no name, none is the likeness.
 pub(super) fn alike(
     space: &Space,
     search: &Search,
@@ -39,11 +40,22 @@ pub(super) fn alike(
     };
     let mut sets = [2, 1].into_iter().filter_map(best);
     let core = sets.find(departs_little)?.blocks;
+    let is_description = |block: &usize| {
+        let own = &space.blocks[*block];
+        space.question.candidates[own.candidate].describes && own.basis.ncols() > 2
+    };
+    if core.iter().any(is_description) {
+        return None;
+    }
     let explanation = Explanation {
         named: core,
         generic: None,
     };
     let mut found = slots(space, search, &explanation, again);
+    let is_unlike = |slot: &Slot| slot.named.len() > 1 && slot.generic_share >= NAMELESS;
+    if found.slots.iter().any(is_unlike) {
+        return None;
+    }
     for slot in &mut found.slots {
         if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {

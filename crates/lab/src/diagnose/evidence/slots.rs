@@ -19,7 +19,7 @@ use super::unlisted::Restated;
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;
 /// A slot in which generics have this probability has no name …
-const NAMELESS: f64 = 0.3;
+pub(super) const NAMELESS: f64 = 0.3;
 /// … and one in which they have this has no unique name.
 const DOUBTFUL: f64 = 0.1;
 /// Generics, and tentative names, that are listed at most.

@@ -41,6 +41,8 @@ pub struct Claimed {
     pub together: Option<Together>,
     /// How heavy their tails are, where the size of the noise is estimated.
     pub tails: Tails,
+    /// The row that is farthest off, where they are heavy beyond doubt.
+    pub farthest: Option<String>,
     /// The rounding of the readings in `u` and `correlated`, where readings of the same input have it in common or the claim is
     /// without it.
     pub rounding: Option<Rounding>,
@@ -60,6 +62,7 @@ impl Claimed {
             uneven: None,
             together: None,
             tails: Tails::default(),
+            farthest: None,
             rounding: None,
         }
     }
@@ -135,6 +138,7 @@ impl Claimed {
         let plain = Tails::default();
         let normal = Claimed {
             tails: plain,
+            farthest: None,
             ..self
         };
         // What comes in jumps and is remembered is no noise; errors of rounding jump, and not far.
@@ -144,8 +148,13 @@ impl Claimed {
         }
         let seen = reduced(design, fit, &normal.noise(design, fit));
         let tails = seen.map(|seen| Tails::of(seen.residuals().as_slice()));
+        let tails = tails.unwrap_or_default();
+        let far = fit.residuals.component_div(&normal.u).iamax() % design.blocks.len();
+        let rows = &design.blocks[far];
+        let farthest = (tails.heavy).map(|_| design.called(rows[0], rows[rows.len() - 1]));
         Claimed {
-            tails: tails.unwrap_or_default(),
+            tails,
+            farthest,
             ..normal
         }
     }

@@ -126,6 +126,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
         uneven: uneven.reduce(f64::min),
         together: None,
         tails: Tails::default(),
+        farthest: None,
         rounding: None,
     })
 }

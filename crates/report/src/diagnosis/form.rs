@@ -17,6 +17,7 @@ use gumption_lab::diagnose::{
 };
 
 use super::accounts::nowhere;
+use super::labels::spoken;
 use super::names::Names;
 use super::noise::{noise, unclaimed_steps};
 use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
@@ -175,6 +176,8 @@ form! {
         steps: Vec<Option<Number>> = all(unclaimed_steps(claimed), |step| step.map(Number)),
         /// Degrees of freedom of Student's distribution where its tails are heavier than normal ones beyond doubt; else null.
         tails_dof: Option<Number> = claimed.tails.heavy.map(Number),
+        /// The row that is farthest off, where tails are heavy.
+        farthest: Option<String> = claimed.farthest.as_deref().map(|row| spoken(row, l)),
     }
 
     /// Noise that grows with the reading y: u² = a² + (b·y)².

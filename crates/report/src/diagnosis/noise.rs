@@ -7,6 +7,7 @@ use gumption_fault::say;
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
 use gumption_lab::diagnose::{Claimed, Diagnosis, Growth, Memory, Origin, Quantity, u_of_step};
 
+use super::labels::spoken;
 use super::words::p_is;
 
 /// The noise that was assumed, and why, where it needs outputs that are not recorded.
@@ -118,7 +119,8 @@ pub(super) fn unclaimed_steps(claimed: &Claimed) -> &[Option<f64>] {
 fn tails(claimed: &Claimed, l: Language) -> String {
     let said = claimed.tails.heavy.map(|dof| {
         let dof = significant(dof, 1);
-        say!("; its tails are heavier than those of normal errors (Student's distribution with about {dof} degrees of freedom): single readings far off are part of it")
+        let farthest = spoken(claimed.farthest.as_deref().unwrap_or_default(), l);
+        say!("; its tails are heavier than those of normal errors (Student's distribution with about {dof} degrees of freedom): single readings far off are part of it, the farthest {farthest}")
     });
     said.map_or_else(String::new, |said| said.in_language(l))
 }

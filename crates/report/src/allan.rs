@@ -189,15 +189,10 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
 fn plot(report: &AllanReport<'_>) -> Plot {
     let l = report.language;
     let points = &report.allan.points;
-    let layer = |name: &str, tone, marks| Layer {
-        name: name.into(),
-        tone,
-        marks,
-    };
     let intervals = points.iter().map(|p| [p.tau, p.interval[0], p.interval[1]]);
     let deviations = points.iter().map(|p| [p.tau, p.deviation]);
-    let mut layers = vec![layer(
-        &format!(
+    let mut layers = vec![Layer::new(
+        format!(
             "{} {}",
             l.pick("confidence interval", "置信区间"),
             probability(report.allan.probability)
@@ -206,13 +201,22 @@ fn plot(report: &AllanReport<'_>) -> Plot {
         Marks::Band(intervals.collect()),
     )];
     if let Some(noises) = report.noises {
-        layers.extend(slopes(report, noises).map(|(name, line)| layer(name, Tone::Quiet, line)));
+        layers
+            .extend(slopes(report, noises).map(|(name, line)| Layer::new(name, Tone::Quiet, line)));
         let curve = points.iter().map(|p| [p.tau, noises.deviation(p.tau)]);
         let name = l.pick("the noises together", "各噪声之和");
-        layers.push(layer(name, Tone::Contrast, Marks::Line(curve.collect())));
+        layers.push(Layer::new(
+            name,
+            Tone::Contrast,
+            Marks::Line(curve.collect()),
+        ));
     }
     let name = l.pick("Allan deviation", "阿伦偏差");
-    layers.push(layer(name, Tone::Main, Marks::Points(deviations.collect())));
+    layers.push(Layer::new(
+        name,
+        Tone::Main,
+        Marks::Points(deviations.collect()),
+    ));
     Plot {
         id: "allan".into(),
         panels: vec![Panel {

@@ -41,19 +41,18 @@ pub(super) fn contributions(number: usize, audit: &Audit<'_>, l: Language) -> Op
         });
         Marks::Bars(bars.collect())
     };
-    let layer = |name: &str, tone, marks| Layer {
-        name: name.to_owned(),
-        tone,
-        marks,
-    };
-    let mut layers = vec![layer(
+    let mut layers = vec![Layer::new(
         l.pick("recomputed", "重新计算"),
         Tone::Main,
         bars(&|pair| pair.recomputed),
     )];
     if pairs.iter().any(|pair| pair.claimed.is_some()) {
         let claimed = bars(&|pair| pair.claimed.unwrap_or(f64::NAN));
-        layers.push(layer(l.pick("claimed", "声称"), Tone::Contrast, claimed));
+        layers.push(Layer::new(
+            l.pick("claimed", "声称"),
+            Tone::Contrast,
+            claimed,
+        ));
     }
     let title = l.pick(
         "Contributions, u_c and U: recomputed and as claimed",

@@ -4,7 +4,7 @@ mod models;
 mod readings;
 
 use gumption_fault::language::Language;
-use gumption_format::document::{Block, Document, Layer, Marks, Panel, Plot, Table, Tone};
+use gumption_format::document::{Block, Document, Marks, Panel, Plot, Table};
 use gumption_format::files::Files;
 use gumption_format::machine::{Machine, Number, record};
 use gumption_gum::budget::{self, MonteCarloSettings};
@@ -273,10 +273,6 @@ fn moments(samples: &[f64]) -> [f64; 2] {
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
     sum / count
-}
-
-fn layer(name: String, tone: Tone, marks: Marks) -> Layer {
-    Layer { name, tone, marks }
 }
 
 #[cfg(test)]

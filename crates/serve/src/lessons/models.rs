@@ -2,11 +2,11 @@
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
 use gumption_fault::say;
-use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
+use gumption_format::document::{Axis, ColumnKind, Layer, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 use gumption_report::grouped;
 
-use super::{Class, Count, Drawn, P, SEEN, curve, ends, layer, moments, outline};
+use super::{Class, Count, Drawn, P, SEEN, curve, ends, moments, outline};
 
 /// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
 const STEP: f64 = 1.359_356_39;
@@ -61,9 +61,9 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
             x: Axis::linear("y", ""),
             y: Axis::linear(class.pick("density", "概率密度"), ""),
             layers: vec![
-                layer(class.pick("trials", "试验"), Tone::Quiet, Marks::Points(rug.collect())),
-                layer(class.pick("histogram", "直方图"), Tone::Main, outline(drawn, reach)),
-                layer(
+                Layer::new(class.pick("trials", "试验"), Tone::Quiet, Marks::Points(rug.collect())),
+                Layer::new(class.pick("histogram", "直方图"), Tone::Main, outline(drawn, reach)),
+                Layer::new(
                     class.pick("GUM", "GUM 法"),
                     Tone::Contrast,
                     curve(|x| normal_pdf((x - 1.0) / u) / u, reach),
@@ -131,9 +131,9 @@ pub(super) fn resistors(class: &Class<'_>) -> Drawn {
             x: Axis::linear("n", ""),
             y: Axis::linear(class.pick("half-width", "半宽"), "Ω"),
             layers: vec![
-                layer(class.pick("worst case", "最坏情况"), Tone::Contrast, Marks::Line(worst)),
-                layer(class.pick("U by the GUM", "GUM 法的 U"), Tone::Main, Marks::Line(gum)),
-                layer(class.pick("95 % drawn", "抽样的 95 %"), Tone::Main, Marks::Points(seen)),
+                Layer::new(class.pick("worst case", "最坏情况"), Tone::Contrast, Marks::Line(worst)),
+                Layer::new(class.pick("U by the GUM", "GUM 法的 U"), Tone::Main, Marks::Line(gum)),
+                Layer::new(class.pick("95 % drawn", "抽样的 95 %"), Tone::Main, Marks::Points(seen)),
             ],
         },
         figures,
@@ -180,14 +180,14 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
     }
     row(class.pick("drawn", "抽样"), centre, s, [low, high]);
     let reach = [-4.0, (a.abs() + 3.0).powi(2)];
-    let mut layers = vec![layer(
+    let mut layers = vec![Layer::new(
         class.pick("drawn", "抽样"),
         Tone::Main,
         outline(&drawn, reach),
     )];
     if first > 0.0 {
         let gum = curve(|x| normal_pdf((x - a * a) / first) / first, reach);
-        layers.push(layer(
+        layers.push(Layer::new(
             class.pick("GUM, first order", "GUM 法，一阶"),
             Tone::Contrast,
             gum,
@@ -281,8 +281,8 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
             x: Axis::linear(class.pick("level error", "水平误差"), "mrad"),
             y: Axis::linear(class.pick("error of the scale factor", "标度因数误差"), "10⁻⁶"),
             layers: vec![
-                layer(class.pick("first order", "一阶"), Tone::Contrast, Marks::Level(0.0)),
-                layer(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(points)),
+                Layer::new(class.pick("first order", "一阶"), Tone::Contrast, Marks::Level(0.0)),
+                Layer::new(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(points)),
             ],
         },
         figures: vec![

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use gumption_core::special::student_t_sf;
-use gumption_core::statistics::{Dd, Serial, Series, effective_freedom, norm};
+use gumption_core::statistics::{Dd, Serial, Series, effective_freedom, norm, range};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
 /// no time that grows with the square of their length.
@@ -97,6 +97,7 @@ impl Average {
                 needed: 2,
             });
         }
+        let (minimum, maximum) = range(present.iter().copied());
         let scatter = Scatter::new(&present);
         let effective = n as f64 / scatter.factor;
         Ok(Average {
@@ -108,8 +109,8 @@ impl Average {
             effective,
             u: (scatter.variance(1.0) / effective).sqrt(),
             dof: scatter.dof,
-            minimum: present.iter().copied().fold(f64::INFINITY, f64::min),
-            maximum: present.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            minimum,
+            maximum,
         })
     }
 }
@@ -140,14 +141,8 @@ impl Average {
                 // Readings that do not scatter at all: as of equal parts, however small.
                 false => sum(&|one| one.dof),
             },
-            minimum: parts
-                .iter()
-                .map(|one| one.minimum)
-                .fold(f64::INFINITY, f64::min),
-            maximum: parts
-                .iter()
-                .map(|one| one.maximum)
-                .fold(f64::NEG_INFINITY, f64::max),
+            minimum: range(parts.iter().map(|one| one.minimum)).0,
+            maximum: range(parts.iter().map(|one| one.maximum)).1,
         })
     }
 }

@@ -263,13 +263,6 @@ fn ends(samples: &[f64]) -> [f64; 2] {
     })
 }
 
-/// Mean and standard deviation.
-fn moments(samples: &[f64]) -> [f64; 2] {
-    let centre = mean(samples.iter().copied());
-    let squares: f64 = samples.iter().map(|x| (x - centre).powi(2)).sum();
-    [centre, (squares / (samples.len() as f64 - 1.0)).sqrt()]
-}
-
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
     sum / count

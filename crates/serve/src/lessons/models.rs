@@ -1,12 +1,13 @@
 //! Models: where the trials lead, where worst case and first order part from them.
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
+use gumption_core::statistics::mean_and_deviation;
 use gumption_fault::say;
 use gumption_format::document::{Axis, ColumnKind, Layer, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 use gumption_report::grouped;
 
-use super::{Class, Count, Drawn, P, SEEN, curve, ends, moments, outline};
+use super::{Class, Count, Drawn, P, SEEN, curve, ends, outline};
 
 /// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
 const STEP: f64 = 1.359_356_39;
@@ -43,7 +44,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
     ]);
     let beside = (drawn.len() < all.len()).then_some(all.as_slice());
     for samples in [Some(drawn), beside].into_iter().flatten() {
-        let ([centre, s], [low, high]) = (moments(samples), ends(samples));
+        let ((centre, s), [low, high]) = (mean_and_deviation(samples), ends(samples));
         table.push(vec![
             grouped(samples.len() as u64).into(),
             format!("{centre:.3}").into(),
@@ -52,7 +53,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
         ]);
     }
     let rug = drawn.iter().take(10 * SEEN).map(|x| [*x, 0.0]);
-    let [centre, s] = moments(drawn);
+    let (centre, s) = mean_and_deviation(drawn);
     Drawn {
         words: say!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: u is known to one part in √(2 M) after M trials.").in_language(class.language),
         table,
@@ -149,7 +150,7 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
     ));
     let drawn = samples.into_iter().next().unwrap_or_default();
     let [first, second] = [2.0 * a.abs(), (4.0 * a * a + 2.0).sqrt()];
-    let ([centre, s], [low, high]) = (moments(&drawn), ends(&drawn));
+    let ((centre, s), [low, high]) = (mean_and_deviation(&drawn), ends(&drawn));
     let k = normal_two_sided_quantile(P);
     let mut table = Table::new([
         ("", ColumnKind::Names),
@@ -259,7 +260,7 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
         ),
     ];
     for (what, first, drawn) in rows {
-        let [centre, s] = moments(drawn);
+        let (centre, s) = mean_and_deviation(drawn);
         // Without a sign of nothing.
         let millionths = |x: f64| format!("{:.1}", (1e7 * x).round() / 10.0 + 0.0);
         table.push(vec![
@@ -286,9 +287,9 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
             ],
         },
         figures: vec![
-            Number(moments(&one)[1]),
-            Number(moments(&four)[1]),
-            Number(moments(&error)[0]),
+            Number(mean_and_deviation(&one).1),
+            Number(mean_and_deviation(&four).1),
+            Number(mean_and_deviation(&error).0),
         ],
     }
 }

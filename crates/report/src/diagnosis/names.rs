@@ -2,6 +2,7 @@
 
 use crate::language::Language;
 use crate::number::percent;
+use gumption_core::letters::is_chinese;
 use gumption_fault::say;
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::catalogue::{Cell, Node, Variation, Words};
@@ -234,7 +235,7 @@ fn by_slope(formula: &str, parameter: &str) -> String {
 
 /// A text without single blanks between Chinese characters.
 fn closed_up(text: &str) -> String {
-    let is_chinese = |c: Option<&char>| c.is_some_and(|c| ('\u{4e00}'..='\u{9fff}').contains(c));
+    let is_chinese = |c: Option<&char>| c.is_some_and(|c| is_chinese(*c));
     let letters: Vec<char> = text.chars().collect();
     let stays = |at: &usize| {
         let before = at.checked_sub(1).and_then(|before| letters.get(before));

@@ -53,8 +53,6 @@ pub struct Drift {
     pub u_slope: f64,
     /// Change from the first to the last reading, as the line says.
     pub total: f64,
-    /// Its standard uncertainty.
-    pub u_total: f64,
     /// The value of the line at the mean time, which is the mean of the readings; its standard
     /// uncertainty is this. Where there is a drift, it is smaller than [`Average::u`], which takes
     /// the drift for slow noise.
@@ -97,9 +95,9 @@ impl Average {
                 needed: 2,
             });
         }
-        let (minimum, maximum) = range(present.iter().copied());
         let scatter = Scatter::new(&present);
         let effective = n as f64 / scatter.factor;
+        let (minimum, maximum) = range(present.iter().copied());
         Ok(Average {
             mean: scatter.series.mean(),
             s: scatter.series.standard_deviation(),
@@ -192,7 +190,6 @@ impl Drift {
             slope,
             u_slope,
             total: slope * duration,
-            u_total: u_slope * duration.abs(),
             u_middle: (variance / n).sqrt(),
             dof,
             p_value,

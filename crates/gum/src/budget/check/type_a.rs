@@ -46,7 +46,6 @@ fn statistics(series: &Series, readings: &[Dd], effective: Option<f64>) -> Stati
         min,
         max,
         lag1: series.autocorrelation(1),
-        lag_limit: series.serial_limit(),
         effective,
     }
 }

@@ -170,11 +170,10 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
             blocks.push(Block::Paragraph(quality(l, noises)));
         }
         None => blocks.push(Block::Paragraph(
-            l.pick(
-                "The deviations are too few to tell the noises apart, or the readings do not vary.",
-                "偏差点数太少，或读数无变化，无法分离噪声。",
+            say!(
+                "The deviations are too few to tell the noises apart, or the readings do not vary."
             )
-            .into(),
+            .in_language(l),
         )),
     }
     blocks.push(Block::Section(
@@ -220,9 +219,7 @@ fn plot(report: &AllanReport<'_>) -> Plot {
     Plot {
         id: "allan".into(),
         panels: vec![Panel {
-            title: l
-                .pick("Allan deviation over averaging time", "阿伦偏差与平均时间")
-                .into(),
+            title: say!("Allan deviation over averaging time").in_language(l),
             x: Axis::logarithmic("τ", symbol(report.time)),
             y: Axis::logarithmic("σ(τ)", symbol(report.unit)),
             layers,
@@ -334,10 +331,7 @@ fn unit_of(report: &AllanReport<'_>, law: PowerLaw) -> String {
 }
 
 fn quality(l: Language, noises: &Noises) -> String {
-    let limits = l.pick(
-        "Where the recording does not show a noise, “<” says below what it is with about 95 % probability: the limit is approximate, since Allan variances of few degrees of freedom are not normal.",
-        "记录中不显示的噪声以“<”给出约 95 % 概率的上限；自由度小的阿伦方差不服从正态分布，该上限为近似值。",
-    );
+    let limits = say!("Where the recording does not show a noise, “<” says below what it is with about 95 % probability: the limit is approximate, since Allan variances of few degrees of freedom are not normal.").in_language(l);
     let p = significant(noises.p_value, 2);
     match noises.explain() {
         false => say!("{limits} These noises do not explain the deviations (p = {p}): something else is in the recording, such as a drift, a period or quantisation.").in_language(l),

@@ -2,6 +2,7 @@
 
 use gumption_audit::Audit;
 use gumption_audit::printed::Printed;
+use gumption_fault::say;
 use gumption_format::document::{Axis, Bar, Layer, Marks, Panel, Plot, Tone};
 
 use super::{is_marked, words};
@@ -54,14 +55,11 @@ pub(super) fn contributions(number: usize, audit: &Audit<'_>, l: Language) -> Op
             claimed,
         ));
     }
-    let title = l.pick(
-        "Contributions, u_c and U: recomputed and as claimed",
-        "各分量、u_c 和 U：重新计算值与声称值",
-    );
+    let title = say!("Contributions, u_c and U: recomputed and as claimed").in_language(l);
     Some(Plot {
         id: format!("audit_{number}"),
         panels: vec![Panel {
-            title: title.to_owned(),
+            title,
             x: Axis::linear("|c·u|, u_c, U", audit.found.case.claimed.unit.as_str()),
             y: Axis::linear("", ""),
             layers,

@@ -166,13 +166,10 @@ impl<'a> Names<'a> {
     /// What a name leaves open: its order, and whether it acts on the output or on the scale.
     pub(super) fn open(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
         let same = match diagnosis.same_on_scale(one) {
-            Some(_) => self.l.pick(
-                " (or of the scale: the readings hardly vary)",
-                "（或标度的同类影响：读数几乎不变）",
-            ),
-            None => "",
+            Some(_) => say!(" (or of the scale: the readings hardly vary)").in_language(self.l),
+            None => String::new(),
         };
-        self.orders(diagnosis, one) + same
+        self.orders(diagnosis, one) + &same
     }
 
     /// That the order of a cause is open, where it is: what else than the name may hold.

@@ -1,6 +1,6 @@
 //! What is said of a fleet in sentences.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use gumption_fleet::{Drift, GroupResult, Measurand, SIGNIFICANCE, Scatter};
 
 use super::Shown;
@@ -80,11 +80,11 @@ impl Shown<'_> {
                 false => format!("{} {birge}", self.group(*at)),
             }
         };
-        self.list(groups.len(), groups.iter().map(ratio))
+        self.list(groups.iter().map(ratio))
     }
 
     /// The first of some names.
-    fn list(self, count: usize, names: impl Iterator<Item = String>) -> String {
+    fn list(self, names: impl Iterator<Item = String>) -> String {
         let mut all: Vec<String> = Vec::new();
         for name in names {
             // A device may have several rows.
@@ -92,14 +92,7 @@ impl Shown<'_> {
                 all.push(name);
             }
         }
-        let count = count.min(all.len());
-        all.truncate(LISTED);
-        let names = all;
-        let names = names.join(self.l.list_comma());
-        match count > LISTED {
-            true => format!("{names} …"),
-            false => names,
-        }
+        Said::first(&all, LISTED).in_language(self.l)
     }
 
     pub fn agreement_words(self, one: &Measurand) -> String {
@@ -116,7 +109,7 @@ impl Shown<'_> {
             return say!("|E_n| > 1: {beyond} of {tested} rows, against {against}. The items differ by more than their uncertainties, so that none of them stands out, and none is named. E_n tells something against a reference value (`--reference`), or among items that should be alike (`--by`).").in_language(l);
         }
         let named = found.apart.iter().filter(|one| one.is_named());
-        let names = self.list(found.named, named.map(|one| one.device.clone()));
+        let names = self.list(named.map(|one| one.device.clone()));
         let named = match found.named {
             0 => say!("Over all that was tested, chance explains each of them.").in_language(l),
             count => self.unexplained(count, "行", &names),
@@ -158,7 +151,7 @@ impl Shown<'_> {
         };
         let all = all.in_language(l);
         let named = drift.apart.iter().filter(|one| one.is_named());
-        let names = self.list(drift.named, named.map(|one| one.device.clone()));
+        let names = self.list(named.map(|one| one.device.clone()));
         let named = match drift.named {
             0 => say!("Over all devices, chance explains each of them.").in_language(l),
             count => self.unexplained(count, "个", &names),

@@ -193,18 +193,18 @@ impl<'a> Study<'a> {
     /// Runs what is left, on several threads; the file is in the order of the trials.
     fn run(&self) -> Result<(), String> {
         std::thread::scope(|scope| {
-            for worker in 0..self.options.threads {
-                scope.spawn(move || self.work(worker));
+            for _ in 0..self.options.threads {
+                scope.spawn(|| self.work());
             }
         });
         self.save()
     }
 
-    fn work(&self, worker: usize) {
-        let folder = std::env::temp_dir().join(format!(
-            "gumption-diagnosis-{}-{worker}",
-            std::process::id()
-        ));
+    fn work(&self) {
+        let folder = match tempfile::tempdir() {
+            Ok(folder) => folder,
+            Err(error) => return eprintln!("{error}"),
+        };
         loop {
             let at = self.next.fetch_add(1, Ordering::Relaxed);
             let Some(trial) = self.trials.get(at) else {
@@ -213,7 +213,7 @@ impl<'a> Study<'a> {
             if self.done.lock().is_ok_and(|done| done.contains_key(&at)) {
                 continue;
             }
-            let record = one(trial, &folder, self.options);
+            let record = one(trial, folder.path(), self.options);
             let count = self.done.lock().map_or(0, |mut done| {
                 done.insert(at, record);
                 done.len()
@@ -226,7 +226,6 @@ impl<'a> Study<'a> {
                 }
             }
         }
-        let _ = std::fs::remove_dir_all(folder);
     }
 
     fn save(&self) -> Result<(), String> {

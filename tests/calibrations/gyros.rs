@@ -1,27 +1,15 @@
 //! Gyro triads: positions measured twice, and the azimuth of the base.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use gumption::calibrate::{Calibration, Campaign, calibrate, plan, read};
 use gumption::experiment::Purpose;
 
 fn campaign(toml: &str, csv: &str, purpose: Purpose) -> Campaign {
-    let folder = folder(csv);
+    let folder = crate::common::folder("gyros");
+    folder.put("run.csv", csv);
     let read = read(toml, "calibration.toml", &folder, purpose);
-    let _ = std::fs::remove_dir_all(&folder);
     read.unwrap_or_else(|rejection| panic!("{}", rejection.render(false)))
-}
-
-/// A folder of its own with the recording.
-fn folder(csv: &str) -> PathBuf {
-    use std::sync::atomic::{AtomicU32, Ordering};
-    static NUMBER: AtomicU32 = AtomicU32::new(0);
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let name = format!("gumption-gyros-{}-{number}", std::process::id());
-    let folder = std::env::temp_dir().join(name);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("run.csv"), csv).expect("a file");
-    folder
 }
 
 const BIAS: &str =

@@ -489,9 +489,8 @@ fn the_example_of_the_page_of_recordings_evaluates() {
         let rest = page.split(opening).nth(1).expect("a block");
         rest.split("```").next().expect("its end").to_owned()
     };
-    let folder = std::env::temp_dir().join(format!("gumption-recordings-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("samples.csv"), block("```text\n")).expect("a file");
+    let folder = common::folder("recordings");
+    folder.put("samples.csv", block("```text\n"));
     let toml = block("```toml calibration-file\n");
     let campaign = read(&toml, "docs/recordings.md", &folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
@@ -504,5 +503,4 @@ fn the_example_of_the_page_of_recordings_evaluates() {
         1e-12,
     );
     assert!(coefficient(&found, "K").u > 0.0);
-    std::fs::remove_dir_all(&folder).expect("the folder goes");
 }

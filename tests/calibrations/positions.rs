@@ -25,10 +25,8 @@ fn recording() -> String {
 }
 
 fn campaign(steps: &str, equation: &str) -> Campaign {
-    let (process, thread) = (std::process::id(), std::thread::current().id());
-    let folder = std::env::temp_dir().join(format!("gumption-positions-{process}-{thread:?}"));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("run.csv"), recording()).expect("a file");
+    let folder = crate::common::folder("positions");
+    folder.put("run.csv", recording());
     let toml = format!(
         "recording = {{ file = \"run.csv\", steps = {steps} }}\nequations = \"{equation}\"\n\
          [columns]\nax = \"stimulus\"\nay = \"stimulus\"\naz = \"stimulus\"\nU = \"output\"\n"

@@ -1,7 +1,6 @@
 //! Experiments with one mistake: a calibration says it, and never passes over what would change its result.
 
-use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::path::Path;
 
 use gumption::Files;
 use gumption::calibrate::{calibrate, load_from, read};
@@ -25,21 +24,11 @@ run = "run"
 
 const RECORDING: &str = "omega [deg/s],run,T [°C],uu [mV],U [mV]\n-10,1,20,0.1,-19\n0,1,21,0.1,1.1\n10,1,22,0.1,21\n-10,2,20,0.1,-19.1\n0,2,21,0.1,1\n10,2,22,0.1,20.9\n";
 
-/// The folder of the recording, which is written once: tests run side by side.
-static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
-    let folder = std::env::temp_dir().join(format!("gumption-refusals-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("rate.csv"), RECORDING).expect("written");
-    folder
-});
-
 /// What is said of the experiment: the refusal, or the remarks.
 fn said(campaign: &str) -> String {
-    outcome(campaign, &FOLDER)
-}
-
-fn outcome(campaign: &str, folder: &Path) -> String {
-    match read(campaign, "rate.toml", folder, Purpose::Calibrate) {
+    let folder = crate::common::folder("refusals");
+    folder.put("rate.csv", RECORDING);
+    match read(campaign, "rate.toml", &folder, Purpose::Calibrate) {
         Ok(campaign) => {
             let remarks = campaign.experiment.remarks.iter();
             remarks.map(ToString::to_string).collect()

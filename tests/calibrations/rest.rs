@@ -45,9 +45,8 @@ fn recording() -> String {
 
 #[test]
 fn rests_are_found_and_calibrated() {
-    let folder = std::env::temp_dir().join(format!("gumption-rest-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("phone.csv"), recording()).expect("a file");
+    let folder = crate::common::folder("rest");
+    folder.put("phone.csv", recording());
     let toml = "procedure = \"accelerometer-norm\"\n[constant]\ng = \"9.8 m/s^2\"\n\
         [recording]\nfile = \"phone.csv\"\nstill = 30\nsettle = \"0.5 s\"\n\
         [columns]\ntime = \"time\"\nUx = { column = \"ax\" }\nUy = { column = \"ay\" }\nUz = { column = \"az\" }\n\
@@ -93,5 +92,4 @@ fn rests_are_found_and_calibrated() {
         said.collect::<String>()
             .contains("each of the 720 rows counts as a point")
     );
-    std::fs::remove_dir_all(&folder).expect("the folder goes");
 }

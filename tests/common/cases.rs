@@ -1,15 +1,10 @@
 //! What tests of cases share: a folder for each, the program in it, and what a diagnosis names.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
-/// A folder of the test's own.
-pub fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-case-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
+pub use super::folder;
 
 /// Runs the program in a folder; what it prints, or what it complains of.
 pub fn gumption(folder: &Path, arguments: &[&str]) -> (bool, String) {

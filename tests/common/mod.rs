@@ -5,11 +5,13 @@
 pub mod cases;
 pub mod evaluation;
 mod files;
+mod folder;
 
 use std::path::Path;
 use std::process::Command;
 
 pub use files::{assert_fresh, calibrations, files, relative, root, stale};
+pub use folder::{Folder, folder};
 
 /// The program, without colours and on a page of 100 columns.
 pub fn program() -> Command {

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 
-use crate::common::Noise;
 use crate::common::cases::{folder, gumption, json};
+use crate::common::{Folder, Noise};
 
 const CASE: &str = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\nT = \"covariate\"\ny = \"output\"\n[noise]\nu = 0.01\n";
 
@@ -18,7 +18,7 @@ fn left_of(y: &DVector<f64>, columns: &[DVector<f64>]) -> f64 {
 }
 
 /// A sensor with a square of this size, and noise as it is claimed; the columns x and y.
-fn recording(name: &str, square: f64) -> (std::path::PathBuf, DVector<f64>, DVector<f64>) {
+fn recording(name: &str, square: f64) -> (Folder, DVector<f64>, DVector<f64>) {
     let mut noise = Noise(905);
     let mut text = "x [N],T [°C],y [V]\n".to_owned();
     let (mut x, mut y) = (Vec::new(), Vec::new());

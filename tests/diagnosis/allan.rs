@@ -1,33 +1,12 @@
 //! `gumption allan` on recordings of known noise.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Output;
 
-/// A folder of its own, which goes when the test is over.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Folder {
-        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder");
-        Folder(path)
-    }
-
-    fn write(&self, name: &str, text: &str) -> PathBuf {
-        let path = self.0.join(name);
-        std::fs::write(&path, text).expect("a file");
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
+use crate::common::{folder, program};
 
 fn allan(path: &Path, arguments: &[&str]) -> Output {
-    crate::common::program()
+    program()
         .arg("allan")
         .arg(path)
         .args(arguments)
@@ -52,8 +31,8 @@ fn white(count: usize) -> String {
 
 #[test]
 fn white_noise_is_found_and_nothing_else() {
-    let folder = Folder::new("allan-white");
-    let path = folder.write("rest.csv", &white(4000));
+    let folder = folder("allan-white");
+    let path = folder.put("rest.csv", white(4000));
     let output = allan(&path, &["--column", "rate", "--time", "time", "--json"]);
     assert!(output.status.success(), "{output:?}");
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
@@ -79,8 +58,8 @@ fn white_noise_is_found_and_nothing_else() {
 
 #[test]
 fn the_report_in_both_languages() {
-    let folder = Folder::new("allan-report");
-    let path = folder.write("rest.csv", &white(500));
+    let folder = folder("allan-report");
+    let path = folder.put("rest.csv", white(500));
     let english = allan(&path, &["--column", "rate", "--interval", "0.1"]);
     let chinese = allan(
         &path,
@@ -110,7 +89,7 @@ fn the_report_in_both_languages() {
 
 #[test]
 fn what_cannot_be_analysed_is_refused() {
-    let folder = Folder::new("allan-refused");
+    let folder = folder("allan-refused");
     let gap = white(100).replace("\n5.0,", "\n7.5,");
     for (csv, arguments, message) in [
         (
@@ -131,7 +110,7 @@ fn what_cannot_be_analysed_is_refused() {
         ),
         (white(100), &["--column", "rate", "--interval", "-1"], "-1"),
     ] {
-        let path = folder.write("rest.csv", &csv);
+        let path = folder.put("rest.csv", csv);
         let output = allan(&path, arguments);
         let errors = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{errors}");

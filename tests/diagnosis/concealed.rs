@@ -2,10 +2,10 @@
 //! is made by `cargo run --release --example diagnosis`.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Output;
 
-use crate::common;
+use crate::common::{self, folder};
 use gumption::challenge::grade::{Answer, Finding, Graded, grade, grade_schema};
 use gumption::challenge::study::{Ablation, Advice, Decision, Request, Trial, decision, request};
 use gumption::challenge::{
@@ -14,13 +14,6 @@ use gumption::challenge::{
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::diagnose;
 use gumption::report::{self, Language};
-
-/// A folder of its own for each test.
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    folder
-}
 
 fn run(arguments: &[&str]) -> Output {
     common::program().args(arguments).output().unwrap()
@@ -32,7 +25,8 @@ fn text(path: &Path) -> String {
 
 #[test]
 fn a_case_is_sealed_and_a_broken_seal_is_refused() {
-    let out = folder("sealed");
+    let folder = folder("sealed");
+    let out = folder.join("sealed");
     let made = run(&[
         "challenge",
         "--seed",
@@ -74,7 +68,6 @@ fn a_case_is_sealed_and_a_broken_seal_is_refused() {
         run(&["challenge", "--out", &text(&out)]).status.code(),
         Some(2)
     );
-    std::fs::remove_dir_all(&out).unwrap();
 }
 
 #[test]
@@ -105,14 +98,12 @@ fn graded(sealed: &SealedCase) -> Graded {
 /// What is said of a case.
 fn diagnosed(sealed: &SealedCase) -> (Answer, Advice) {
     let folder = folder(&format!("concealed-{}", sealed.truth.salt));
-    std::fs::create_dir_all(&folder).unwrap();
     for file in &sealed.files {
         std::fs::write(folder.join(file.name), &file.text).unwrap();
     }
     let case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
     let said = report::diagnosis(&case, &diagnosis, Language::English)
         .machine
         .value();
@@ -163,7 +154,8 @@ fn a_remount_tells_the_second_order_from_an_eccentric_circle() {
 
 #[test]
 fn a_further_measurement_has_to_be_one_of_the_rig() {
-    let out = folder("further");
+    let folder = folder("further");
+    let out = folder.join("further");
     let with = |further: &str| {
         run(&[
             "challenge",
@@ -184,7 +176,6 @@ fn a_further_measurement_has_to_be_one_of_the_rig() {
     assert!(with("head between").status.success());
     let recording = std::fs::read_to_string(out.join("case/recording.csv")).unwrap();
     assert_eq!(recording.lines().count(), 1 + 72);
-    std::fs::remove_dir_all(&out).unwrap();
 }
 
 #[test]

@@ -51,13 +51,11 @@ fn shared_causes_correlate_as_the_page_says() {
     let parts = blocks("calibrate-part");
     let part = parts.iter().find(|part| part.contains("[[correlation]]"));
     let part = part.expect("a part").clone() + "[recording]\nfile = \"run.csv\"\n";
-    let folder = std::env::temp_dir().join(format!("gumption-shared-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
+    let folder = common::folder("shared");
     let csv = "omega [deg/s],U [mV],V [mV]\n-1,-2,-1\n0,0,0\n1,2,1\n";
-    std::fs::write(folder.join("run.csv"), csv).expect("a file");
+    folder.put("run.csv", csv);
     let experiment = calibrate::read(&part, "calibrate.md", &folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    std::fs::remove_dir_all(&folder).expect("the folder goes");
     let found = calibrate::calibrate(&experiment)
         .expect("coefficients")
         .figures;

@@ -2,17 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::common::{program, root};
+use super::common::{folder, program, root};
 use gumption::render::archive;
 
-fn folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-archives-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn archived(budget: &str, name: &str, more: &[&str]) -> PathBuf {
-    let file = folder().join(name);
+fn archived(folder: &Path, budget: &str, more: &[&str]) -> PathBuf {
+    let file = folder.join("archive.zip");
     let run = program()
         .args(["eval", "--force", "-o", "-"])
         .args(more)
@@ -41,26 +35,24 @@ fn verified(file: &Path) -> (i32, String) {
 
 #[test]
 fn archives_give_the_same_bits_again() {
-    for (budget, name, more) in [
+    let folder = folder("archives");
+    for (budget, more) in [
         (
             "budgets/mass/weight-10kg-ea402-s2.toml",
-            "alone.zip",
             vec!["--seed", "7", "--trials", "20000"],
         ),
         (
             "budgets/mass/working-standards.toml",
-            "series.zip",
             vec!["--no-mc", "--profile", "JJF"],
         ),
         (
             "budgets/inertial/four-point-tumble-runs.toml",
-            "chain.zip",
             vec!["--no-mc"],
         ),
     ] {
-        let file = archived(budget, name, &more);
+        let file = archived(&folder, budget, &more);
         let bytes = std::fs::read(&file).expect("an archive");
-        archived(budget, name, &more);
+        archived(&folder, budget, &more);
         assert_eq!(bytes, std::fs::read(&file).expect("an archive"), "{budget}");
         let (code, said) = verified(&file);
         assert_eq!(code, 0, "{budget}: {said}");
@@ -84,11 +76,9 @@ fn changed(file: &Path, name: &str, change: impl Fn(String) -> String) -> PathBu
 
 #[test]
 fn changes_are_noticed() {
-    let file = archived(
-        "budgets/mass/weight-10kg-ea402-s2.toml",
-        "changes.zip",
-        &["--no-mc"],
-    );
+    let folder = folder("changes");
+    let budget = "budgets/mass/weight-10kg-ea402-s2.toml";
+    let file = archived(&folder, budget, &["--no-mc"]);
     let other = changed(&file, "weight-10kg-ea402-s2.toml", |text| {
         text + "\n# changed\n"
     });

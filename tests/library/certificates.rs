@@ -7,7 +7,7 @@ use std::process::Command;
 use gumption::language::Language;
 use gumption::report;
 
-use super::common::{assert_fresh, program, root, stale};
+use super::common::{assert_fresh, folder, program, root, stale};
 
 /// One result, results with their covariance, a unit that the D-SI does not know, series with conformity and without.
 const BUDGETS: [&str; 7] = [
@@ -19,12 +19,6 @@ const BUDGETS: [&str; 7] = [
     "inertial/four-point-tumble-runs",
     "calibration-lines/voltage-bevington-6-1",
 ];
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
 
 fn run(arguments: &[&str], files: &[&Path]) -> String {
     let run = program().args(arguments).args(files).output();

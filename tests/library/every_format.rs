@@ -1,7 +1,7 @@
 //! Every format of what every command composes: each is written, and holds the figures of the others and no more.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use gumption::audit::read::Mapping;
 use gumption::audit::{audit, claims};
@@ -14,7 +14,7 @@ use gumption::report::{self, Language, Report};
 use gumption::verify::{Environment, Example, Verification};
 use gumption::{Files, calibrate, challenge, render};
 
-use super::common::{self, cases, program, root};
+use super::common::{self, Folder, cases, program, root};
 
 /// Enough for pictures and for either verdict; the figures need not be good ones.
 const TRIALS: u64 = 2000;
@@ -99,7 +99,7 @@ fn within(part: &Figures, whole: &Figures, what: &str) {
     assert!(more.is_empty(), "{what}: {more:?}");
 }
 
-fn folder(name: &str) -> PathBuf {
+fn folder(name: &str) -> Folder {
     cases::folder(&format!("every-format-{name}"))
 }
 

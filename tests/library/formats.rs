@@ -3,15 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::common::{program, root};
+use super::common::{folder, program, root};
 use gumption::fault::is_obeyed;
 use gumption::render::archive;
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
 
 /// A budget whose words try to be more than words.
 const HOSTILE: &str = "title = \"</w:t></w:p><script>&amp; ]]> %s \\\\input{x} \\u001b[31m\"\n\

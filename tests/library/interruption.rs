@@ -2,16 +2,10 @@
 #![cfg(unix)]
 
 use std::io::Read;
-use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
-fn folder(name: &str) -> PathBuf {
-    let folder = format!("gumption-interruption-{name}-{}", std::process::id());
-    let folder = std::env::temp_dir().join(folder);
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
-    folder
-}
+use crate::common::{Folder, folder, program};
 
 #[test]
 fn an_interrupted_run_writes_no_file() {
@@ -19,7 +13,7 @@ fn an_interrupted_run_writes_no_file() {
     let budget = folder.join("budget.toml");
     let text = "title = \"Long\"\n[measurand.Y]\nmodel = \"a * b\"\n[input]\na = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.1 }\n";
     std::fs::write(&budget, text).expect("a file");
-    let mut child = crate::common::program()
+    let mut child = program()
         .arg("eval")
         .arg(&budget)
         .args(["--trials", "1e12", "--threads", "1", "--output"])
@@ -35,18 +29,16 @@ fn an_interrupted_run_writes_no_file() {
         .map(|entry| entry.expect("an entry").file_name())
         .collect();
     assert_eq!(left, ["budget.toml"]);
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 /// A folder with an experiment and its recording, and so many names of this that their calibrations last.
-fn recordings(name: &str) -> (PathBuf, Vec<&'static str>) {
+fn recordings(name: &str) -> (Folder, Vec<&'static str>) {
     let folder = folder(name);
-    let put = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
-    put(
+    folder.put(
         "gyro.toml",
         "recording = \"a.csv\"\nequations = \"y = K*x + b\"\n",
     );
-    put("a.csv", "x,y\n0,0.1\n1,2.0\n2,4.1\n3,5.9\n");
+    folder.put("a.csv", "x,y\n0,0.1\n1,2.0\n2,4.1\n3,5.9\n");
     (folder, vec!["a.csv"; 100_000])
 }
 
@@ -54,7 +46,7 @@ fn recordings(name: &str) -> (PathBuf, Vec<&'static str>) {
 fn what_is_printed_of_recordings_before_an_interrupt_is_said_to_be_a_part() {
     for (language, words) in [("en", "is not whole"), ("zh", "不完整")] {
         let (folder, many) = recordings(language);
-        let mut child = crate::common::program()
+        let mut child = program()
             .current_dir(&folder)
             .args(["calibrate", "gyro.toml", "--recordings"])
             .args(many)
@@ -91,14 +83,13 @@ fn what_is_printed_of_recordings_before_an_interrupt_is_said_to_be_a_part() {
         assert!(printed.starts_with("label,K,u(K)"), "{printed}");
         assert!(printed.contains("\na,1.9"), "{printed}");
         assert!(said.contains(words), "{said}");
-        std::fs::remove_dir_all(&folder).expect("it can be removed again");
     }
 }
 
 #[test]
 fn a_table_of_recordings_that_is_interrupted_takes_no_place() {
     let (folder, many) = recordings("file");
-    let mut child = crate::common::program()
+    let mut child = program()
         .current_dir(&folder)
         .args([
             "calibrate",
@@ -124,7 +115,6 @@ fn a_table_of_recordings_that_is_interrupted_takes_no_place() {
         .collect();
     names.sort();
     assert_eq!(names, ["a.csv", "gyro.toml"]);
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 /// How a program ends that is interrupted as by Ctrl-C.

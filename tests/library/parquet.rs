@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use gumption::csv::{Cells, Columns, Sheet};
 use gumption::render::parquet::Rows;
 
-use crate::common::root;
+use crate::common::{self, Folder, root};
 
 const BUDGET: &str = r#"
 [measurand.I]
@@ -30,12 +30,10 @@ fn data(name: &str) -> PathBuf {
     root().join("tests/data/parquet").join(name)
 }
 
-/// A folder of its own with the budget in it.
-fn folder(name: &str) -> PathBuf {
-    let folder =
-        std::env::temp_dir().join(format!("gumption-parquet-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
-    std::fs::write(folder.join("budget.toml"), BUDGET).expect("a file");
+/// A folder with the budget in it.
+fn folder(name: &str) -> Folder {
+    let folder = common::folder(name);
+    folder.put("budget.toml", BUDGET);
     folder
 }
 
@@ -95,7 +93,6 @@ fn tables_of_other_programs_give_the_bits_of_csv() {
         assert_eq!(String::from_utf8_lossy(&found.stdout), text, "{name}");
         assert_eq!(found.status, expected.status, "{name}");
     }
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 #[test]
@@ -135,7 +132,6 @@ fn results_hold_the_bits_of_csv() {
         }
         by_pyarrow(&folder.join("out.parquet"), &printed.stdout);
     }
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 /// The results as another program reads them, where it is at hand.
@@ -217,7 +213,6 @@ fn many_rows_are_several_row_groups() {
         Some(2),
         "u(I) is no place of the budget"
     );
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 #[test]
@@ -251,7 +246,6 @@ fn what_is_no_table_is_refused() {
         found.status.code() == Some(2) && why.contains("cannot be read as Parquet"),
         "{why}"
     );
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }
 
 /// Every damage ends in a fault, or in a table; never in a panic.
@@ -280,5 +274,4 @@ fn damaged_files_are_no_end() {
         .next();
     let numbers = numbers.expect("rows").expect("rows");
     assert!(matches!(numbers.cells(2), Cells::Numbers(all) if all.len() == 5));
-    std::fs::remove_dir_all(&folder).expect("it can be removed again");
 }

@@ -1,7 +1,7 @@
 //! `gumption verify`: the published examples inside the program pass, a wrong claim fails, and the dossier says all
 //! that a laboratory needs.
 
-use crate::common;
+use crate::common::{self, folder};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -18,15 +18,6 @@ fn gumption(arguments: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
-
-/// A folder of this test alone, empty.
-fn folder(name: &str) -> PathBuf {
-    let folder =
-        std::env::temp_dir().join(format!("gumption-verify-{}-{name}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a writable folder");
-    folder
 }
 
 /// A budget whose u is 0.1, and what it claims.
@@ -85,7 +76,6 @@ fn the_published_examples_pass() {
             .count(),
         3
     );
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]
@@ -95,7 +85,6 @@ fn nothing_to_compare_is_no_success() {
     let output = gumption(&["verify", &file]);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
     assert!(text(&output.stderr).contains("nothing to compare"));
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]
@@ -110,7 +99,6 @@ fn a_wrong_claim_fails() {
         out.ends_with("\n2 figures compared, 1 of them differs\n0 passed, 1 failed\n"),
         "{out}"
     );
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]
@@ -124,7 +112,6 @@ fn a_claim_of_low_confidence_decides_nothing() {
         out.contains("not gating") && out.ends_with("\n0 passed, 0 failed\n"),
         "{out}"
     );
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]
@@ -137,7 +124,6 @@ fn a_file_with_faults_is_bad_input() {
     let markdown =
         std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
     assert!(markdown.contains("是否应为 `value`？") && markdown.contains("0 个通过，1 个未通过"));
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]
@@ -159,7 +145,6 @@ fn the_same_run_gives_the_same_dossier() {
     let first = dossier("one");
     assert_eq!(first, dossier("two"));
     assert!(first[0].contains("2026-01-01"));
-    std::fs::remove_dir_all(place).expect("removed");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::common::{program, root};
+use super::common::{folder, program, root};
 
 /// Budgets with t, a fixed k, correlations, corners, several measurands, shared sources.
 const BUDGETS: [&str; 6] = [
@@ -15,12 +15,6 @@ const BUDGETS: [&str; 6] = [
     "calibration-lines/voltage-bevington-6-1",
     "chemistry/sodium-hydroxide-quam-a2",
 ];
-
-fn folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-workbooks-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
 
 fn written(budget: &str, file: &PathBuf) -> Vec<u8> {
     let path = root().join(format!("budgets/{budget}.toml"));
@@ -37,15 +31,15 @@ fn written(budget: &str, file: &PathBuf) -> Vec<u8> {
 
 #[test]
 fn workbooks_are_the_same_every_time() {
-    let file = folder().join("again.xlsx");
+    let folder = folder("workbooks");
+    let file = folder.join("again.xlsx");
     let first = written(BUDGETS[0], &file);
     assert!(first.starts_with(b"PK"));
     assert_eq!(first, written(BUDGETS[0], &file));
 }
 
-/// Workbooks of all budgets in a folder of their own, calculated by a script of Python; `None` where it lacks what it needs.
+/// Workbooks of all budgets in a folder, calculated by a script of Python; `None` where it lacks what it needs.
 fn calculated(folder: &Path, script: &str, first: &[&Path]) -> Option<()> {
-    std::fs::create_dir_all(folder).expect("a folder");
     let files = BUDGETS.map(|budget| {
         let file = folder.join(format!("{}.xlsx", budget.replace('/', "_")));
         written(budget, &file);
@@ -65,14 +59,14 @@ fn calculated(folder: &Path, script: &str, first: &[&Path]) -> Option<()> {
 
 #[test]
 fn another_engine_calculates_the_same_figures() {
-    if calculated(&folder().join("engine"), "recalculated.py", &[]).is_none() {
+    if calculated(&folder("engine"), "recalculated.py", &[]).is_none() {
         eprintln!("skipped: needs Python with the packages formulas and openpyxl");
     }
 }
 
 #[test]
 fn libreoffice_calculates_the_same_figures() {
-    let folder = folder().join("office");
+    let folder = folder("office");
     if calculated(&folder, "office.py", &[&folder]).is_none() {
         eprintln!("skipped: needs LibreOffice, and Python with the package openpyxl");
     }

@@ -1,7 +1,7 @@
 //! The gallery of mistakes on the command line, and of files that are no budgets at all: each is refused
 //! with exit code 2 and the text in `tests/bad_arguments`. Read the texts as a new user would.
 
-use crate::common;
+use crate::common::{self, Folder};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -10,67 +10,53 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A folder of its own with files that are too large or too odd for the repository.
-struct Folder(PathBuf);
+struct Place(Folder);
 
-impl Folder {
+impl Place {
     fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(path.join("folder")).expect("a writable folder");
-        let folder = Folder(path);
-        folder.write("good.toml", GOOD.as_bytes());
-        folder.write("readings.csv", b"V,I\n5.01,20.1\n5.02,20.2\n");
-        folder.write("latin1.toml", b"title = \"Widerst\xe4nde\"\n");
-        folder.write(
+        let folder = common::folder(name);
+        std::fs::create_dir(folder.join("folder")).expect("a folder");
+        folder.put("good.toml", GOOD);
+        folder.put("readings.csv", "V,I\n5.01,20.1\n5.02,20.2\n");
+        folder.put("latin1.toml", b"title = \"Widerst\xe4nde\"\n");
+        folder.put(
             "certificate.toml",
-            b"number = \"17\"\n[laboratory]\nname = \"L\"\n[customer]\nname = \"C\"\n",
+            "number = \"17\"\n[laboratory]\nname = \"L\"\n[customer]\nname = \"C\"\n",
         );
-        folder.write(
+        folder.put(
             "experiment.toml",
-            b"recording = \"readings.csv\"\nequations = \"V = a + b*I\"\n[columns]\nV = \"output\"\nI = \"stimulus\"\n",
+            "recording = \"readings.csv\"\nequations = \"V = a + b*I\"\n[columns]\nV = \"output\"\nI = \"stimulus\"\n",
         );
-        folder.write("garbage.toml", &garbage());
-        folder.write(
-            "nested.toml",
-            GOOD.replace("V / I", &"(".repeat(100_000)).as_bytes(),
-        );
-        folder.write(
+        folder.put("garbage.toml", garbage());
+        folder.put("nested.toml", GOOD.replace("V / I", &"(".repeat(100_000)));
+        folder.put(
             "nested_signs.toml",
-            GOOD.replace("V / I", &"-".repeat(100_000)).as_bytes(),
+            GOOD.replace("V / I", &"-".repeat(100_000)),
         );
-        folder.write(
-            "nested_lists.toml",
-            format!("a = {}", "[".repeat(100_000)).as_bytes(),
-        );
-        folder.write(
+        folder.put("nested_lists.toml", format!("a = {}", "[".repeat(100_000)));
+        folder.put(
             "nested_tables.toml",
-            format!("a = {}", "{a = ".repeat(100_000)).as_bytes(),
+            format!("a = {}", "{a = ".repeat(100_000)),
         );
         let million = vec!["1"; 1_000_000].join(", ");
-        folder.write(
+        folder.put(
             "million_elements.toml",
             GOOD.replace("value = 5.0", &format!("values = [{million}]"))
-                .replace("V / I", "mean(V) / I")
-                .as_bytes(),
+                .replace("V / I", "mean(V) / I"),
         );
-        folder.write(
+        folder.put(
             "million_arguments.toml",
-            GOOD.replace("V / I", &format!("sum([{million}]) * V / I * X"))
-                .as_bytes(),
+            GOOD.replace("V / I", &format!("sum([{million}]) * V / I * X")),
         );
-        folder.write(
+        folder.put(
             "million_terms.toml",
             GOOD.replace(
                 "V / I",
                 &format!("V / I + {} 1 'ohm'", "1 'ohm' + ".repeat(1_000_000)),
-            )
-            .as_bytes(),
+            ),
         );
-        folder.write("binary.toml", &[0; 4096]);
-        folder
-    }
-
-    fn write(&self, name: &str, content: &[u8]) {
-        std::fs::write(self.0.join(name), content).expect("a writable file");
+        folder.put("binary.toml", [0; 4096]);
+        Place(folder)
     }
 
     /// Runs the program in the folder; gives exit code and everything that it says.
@@ -97,12 +83,6 @@ impl Folder {
             output.status.code().unwrap_or(-1),
             shown.replace("gumption.exe", "gumption"),
         )
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
@@ -209,11 +189,11 @@ const MISTAKES: &[(&str, &[&str])] = &[
 
 #[test]
 fn every_mistake_on_the_command_line_is_refused_with_its_message() {
-    let folder = Folder::new("mistakes");
+    let files = Place::new("mistakes");
     let mut stale = Vec::new();
     let mut wrong = Vec::new();
     for (name, arguments) in MISTAKES {
-        let (code, shown) = folder.run(arguments);
+        let (code, shown) = files.run(arguments);
         if code != 2 || shown.contains("panicked") || shown.len() > 20_000 {
             wrong.push(format!("{name}: exit {code}, {} bytes", shown.len()));
         }
@@ -236,8 +216,8 @@ fn place(name: &str) -> PathBuf {
 
 #[test]
 fn a_good_budget_is_evaluated_beside_a_bad_one() {
-    let folder = Folder::new("beside");
-    let (code, shown) = folder.run(&["eval", "--no-mc", "god.toml", "good.toml"]);
+    let files = Place::new("beside");
+    let (code, shown) = files.run(&["eval", "--no-mc", "god.toml", "good.toml"]);
     assert_eq!(code, 2);
     assert!(shown.contains("Resistance") && shown.contains("god.toml"));
 }

@@ -2,7 +2,7 @@
 //! the text beside it. Read the texts as a new user would.
 
 use crate::common;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Runs the program on a bad file, as a user would, from the folder of the file; on `zh_….toml` as a Chinese user.
 fn message(path: &Path) -> (i32, String) {
@@ -63,37 +63,16 @@ fn no_message_shows_the_inside_of_the_program() {
     }
 }
 
-/// A folder of its own, which goes when the test is over.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a writable folder");
-        Folder(path)
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.0.join(name), text).expect("a writable file");
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// Every command that reports in Chinese refuses a file in Chinese, too.
 #[test]
 fn every_command_refuses_in_chinese() {
-    let folder = Folder::new("chinese");
-    folder.write(
+    let folder = common::folder("chinese");
+    folder.put(
         "budget.toml",
         "[measurand.Y]\nmodel = 'X'\n[input.X]\nvalue = 1\nuu = 1\n",
     );
-    folder.write("calibration.toml", "equations = 1\n");
-    folder.write("case.toml", "recording = 1\nmodel = 1\n");
+    folder.put("calibration.toml", "equations = 1\n");
+    folder.put("case.toml", "recording = 1\nmodel = 1\n");
     for (arguments, wanted) in [
         (&["eval", "budget.toml"][..], "错误[B0104]: "),
         (&["verify", "budget.toml"], "错误[B0104]: "),
@@ -106,7 +85,7 @@ fn every_command_refuses_in_chinese() {
             "错误[R0101]: 没有文件",
         ),
     ] {
-        let (code, shown) = run(&folder.0, &[arguments, &["--lang", "zh"]].concat());
+        let (code, shown) = run(&folder, &[arguments, &["--lang", "zh"]].concat());
         assert_eq!(code, 2, "{arguments:?}\n{shown}");
         for part in [wanted, "处错误\n"] {
             assert!(shown.contains(part), "{arguments:?}: no {part} in\n{shown}");

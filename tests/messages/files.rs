@@ -13,30 +13,20 @@ use gumption::files::remember_reads;
 use gumption::files::write::{self, Replacing};
 use proptest::prelude::*;
 
-use crate::common;
+use crate::common::{self, Folder};
 
-/// A folder of its own, removed afterwards.
-struct Folder(PathBuf);
+/// A folder with a budget, a case and what they read.
+struct Place(Folder);
 
-impl Folder {
+impl Place {
     fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("gumption-cli-{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(path.join("sub")).expect("a folder");
-        let folder = Folder(path);
+        let folder = common::folder(name);
+        std::fs::create_dir(folder.join("sub")).expect("a folder");
         folder.put("budget.toml", BUDGET);
         folder.put("readings.csv", "V [V]\n5.01\n5.02\n5.03\n5.01\n");
         folder.put("case.toml", CASE);
-        folder.put("recording.csv", &RECORDING);
-        folder
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        std::fs::write(self.0.join(name), text).expect("a file");
-    }
-
-    fn text(&self, name: &str) -> String {
-        std::fs::read_to_string(self.0.join(name)).expect("a file")
+        folder.put("recording.csv", RECORDING.as_bytes());
+        Place(folder)
     }
 
     fn run(&self, arguments: &[&str]) -> Output {
@@ -61,25 +51,19 @@ impl Folder {
     }
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// What a spreadsheet takes: one line for each row, units in the heads, and exact; the program reads it itself.
 #[test]
 fn results_are_written_as_a_table() {
-    let folder = Folder::new("table");
-    folder.put(
+    let place = Place::new("table");
+    place.0.put(
         "series.toml",
         "[measurand.I]\nmodel = \"V / R\"\nunit = \"mA\"\n[input]\nV = { value = 1, unit = \"V\", u = 0.001 }\n\
          R = { value = 100, unit = \"ohm\", u = 0.1 }\n[conformity]\nupper = 11\nrule = \"simple\"\n\
          [series]\ncolumns = [\"label\", \"V\"]\nrows = [[\"low, first\", 1.0], [\"high\", 1.2]]\n",
     );
-    let run = folder.run(&["eval", "series.toml", "--no-mc", "--csv", "results.csv"]);
+    let run = place.run(&["eval", "series.toml", "--no-mc", "--csv", "results.csv"]);
     assert_eq!(run.status.code(), Some(1), "one row does not conform");
-    let text = folder.text("results.csv");
+    let text = place.0.text("results.csv");
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         lines[0],
@@ -96,15 +80,15 @@ fn results_are_written_as_a_table() {
         "{table}"
     );
     // Its own columns are readings for another budget.
-    folder.put(
+    place.0.put(
         "mean.toml",
         "[measurand.m]\nmodel = \"x\"\nunit = \"mA\"\n[input]\n\
          x = { unit = \"mA\", readings = { file = \"results.csv\", column = \"I\" } }\n",
     );
-    let run = folder.run(&["eval", "mean.toml", "--no-mc"]);
+    let run = place.run(&["eval", "mean.toml", "--no-mc"]);
     assert_eq!(run.status.code(), Some(0));
     // Never over what was read.
-    let run = folder.run(&["eval", "series.toml", "--no-mc", "--csv", "series.toml"]);
+    let run = place.run(&["eval", "series.toml", "--no-mc", "--csv", "series.toml"]);
     assert_eq!(run.status.code(), Some(2));
 }
 
@@ -132,19 +116,19 @@ fn said(output: &Output) -> String {
 /// Every command with every option that names an output, on every name of what it reads.
 #[test]
 fn no_command_overwrites_what_it_reads() {
-    let folder = Folder::new("inputs");
+    let place = Place::new("inputs");
     for (name, of) in [
         ("hard.csv", "readings.csv"),
         ("hard.toml", "case.toml"),
         ("hard.json", "budget.toml"),
     ] {
-        std::fs::hard_link(folder.0.join(of), folder.0.join(name)).expect("a link");
+        std::fs::hard_link(place.0.join(of), place.0.join(name)).expect("a link");
     }
     #[cfg(unix)]
     for (name, of) in [("soft.md", "budget.toml"), ("soft.csv", "recording.csv")] {
-        std::os::unix::fs::symlink(of, folder.0.join(name)).expect("a link");
+        std::os::unix::fs::symlink(of, place.0.join(name)).expect("a link");
     }
-    let before = folder.contents();
+    let before = place.contents();
     let mut outputs = vec![
         vec!["eval", "budget.toml", "--json", "-o", "./budget.toml"],
         vec!["eval", "budget.toml", "--text", "-o", "sub/../readings.csv"],
@@ -182,25 +166,25 @@ fn no_command_overwrites_what_it_reads() {
     for arguments in outputs {
         let mut arguments = arguments;
         arguments.push("--force");
-        let output = folder.run(&arguments);
+        let output = place.run(&arguments);
         let said = said(&output);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}\n{said}");
         assert!(
             said.contains("is read by this command"),
             "{arguments:?}\n{said}"
         );
-        assert_eq!(folder.contents(), before, "{arguments:?}");
+        assert_eq!(place.contents(), before, "{arguments:?}");
     }
 }
 
 #[test]
 fn a_table_beyond_the_memory_is_refused_before_it_is_read() {
-    let folder = Folder::new("large");
-    let table = std::fs::File::create(folder.0.join("readings.csv")).expect("a file");
+    let place = Place::new("large");
+    let table = std::fs::File::create(place.0.join("readings.csv")).expect("a file");
     // Sparse: no block of it is ever written.
     table.set_len(1 << 40).expect("a length");
     for (language, mend) in [("en", "average them in blocks"), ("zh", "gumption batch")] {
-        let output = folder.run(&["eval", "budget.toml", "--lang", language]);
+        let output = place.run(&["eval", "budget.toml", "--lang", language]);
         assert_eq!(output.status.code(), Some(2));
         let said = said(&output);
         assert!(said.contains("R0112"), "{said}");
@@ -213,53 +197,53 @@ fn a_table_beyond_the_memory_is_refused_before_it_is_read() {
 
 #[test]
 fn what_somebody_wrote_is_replaced_when_the_program_is_told() {
-    let folder = Folder::new("force");
+    let place = Place::new("force");
     for (name, option) in [("report.md", "-o"), ("saved.json", "--save")] {
-        folder.put(name, "mine");
-        let refused = folder.run(&["eval", "budget.toml", "--no-mc", option, name]);
+        place.0.put(name, "mine");
+        let refused = place.run(&["eval", "budget.toml", "--no-mc", option, name]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(said(&refused).contains("--force"), "{}", said(&refused));
-        assert_eq!(folder.text(name), "mine");
-        let told = folder.run(&["eval", "budget.toml", "--no-mc", option, name, "--force"]);
+        assert_eq!(place.0.text(name), "mine");
+        let told = place.run(&["eval", "budget.toml", "--no-mc", option, name, "--force"]);
         assert_eq!(told.status.code(), Some(0), "{}", said(&told));
-        assert_ne!(folder.text(name), "mine");
+        assert_ne!(place.0.text(name), "mine");
     }
-    folder.put("case.md", "mine");
-    let chinese = folder.run(&["eval", "budget.toml", "-o", "case.md", "--lang", "zh"]);
+    place.0.put("case.md", "mine");
+    let chinese = place.run(&["eval", "budget.toml", "-o", "case.md", "--lang", "zh"]);
     assert!(said(&chinese).contains("已存在"), "{}", said(&chinese));
 }
 
 #[test]
 fn an_unknown_ending_is_refused_before_the_work() {
-    let folder = Folder::new("endings");
+    let place = Place::new("endings");
     for name in ["report.docm", "report", "report.toml"] {
-        let refused = folder.run(&["eval", "budget.toml", "-o", name]);
+        let refused = place.run(&["eval", "budget.toml", "-o", name]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(
             said(&refused).contains("the endings are .txt, .md, .html, .json"),
             "{}",
             said(&refused)
         );
-        assert!(!folder.0.join(name).exists());
+        assert!(!place.0.join(name).exists());
     }
     for arguments in [["--json", "-o", "report"], ["--no-mc", "-o", "REPORT.MD"]] {
-        let output = folder.run(&[["eval", "budget.toml"].as_slice(), &arguments].concat());
+        let output = place.run(&[["eval", "budget.toml"].as_slice(), &arguments].concat());
         assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     }
-    assert!(folder.text("REPORT.MD").starts_with("# Resistance"));
-    let refused = folder.run(&["simulate", "case.toml", "-o", "recording.md"]);
+    assert!(place.0.text("REPORT.MD").starts_with("# Resistance"));
+    let refused = place.run(&["simulate", "case.toml", "-o", "recording.md"]);
     assert!(said(&refused).contains(".csv"));
-    let refused = folder.run(&["batch", "budget.toml", "devices.csv", "-o", "results.xlsx"]);
+    let refused = place.run(&["batch", "budget.toml", "devices.csv", "-o", "results.xlsx"]);
     assert!(said(&refused).contains("no .xlsx"), "{}", said(&refused));
 }
 
 /// Of several outputs all are written, or none.
 #[test]
 fn nothing_is_written_where_one_output_cannot_be() {
-    let folder = Folder::new("none");
-    folder.put("report.md", "mine");
-    let before = folder.contents();
-    let output = folder.run(&[
+    let place = Place::new("none");
+    place.0.put("report.md", "mine");
+    let before = place.contents();
+    let output = place.run(&[
         "eval",
         "budget.toml",
         "--no-mc",
@@ -269,8 +253,8 @@ fn nothing_is_written_where_one_output_cannot_be() {
         "report.md",
     ]);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(folder.contents(), before);
-    let twice = folder.run(&[
+    assert_eq!(place.contents(), before);
+    let twice = place.run(&[
         "eval",
         "budget.toml",
         "--no-mc",
@@ -280,7 +264,7 @@ fn nothing_is_written_where_one_output_cannot_be() {
         "./a.json",
     ]);
     assert!(said(&twice).contains("twice"), "{}", said(&twice));
-    assert_eq!(folder.contents(), before);
+    assert_eq!(place.contents(), before);
 }
 
 #[cfg(unix)]
@@ -289,7 +273,7 @@ mod on_unix {
 
     #[test]
     fn pipes_and_devices_are_not_read() {
-        let folder = Folder::new("special");
+        let place = Place::new("special");
         for arguments in [
             ["eval", "/dev/zero"],
             ["plan", "/dev/zero"],
@@ -297,7 +281,7 @@ mod on_unix {
             ["diagnose", "/dev/tty"],
             ["verify", "/dev/zero"],
         ] {
-            let output = folder.run(&arguments);
+            let output = place.run(&arguments);
             assert_eq!(
                 output.status.code(),
                 Some(2),
@@ -308,8 +292,8 @@ mod on_unix {
             assert!(said.contains("only files are read"), "{arguments:?} {said}");
         }
         let budget = BUDGET.replace("readings.csv", "/dev/zero");
-        folder.put("other.toml", &budget);
-        let output = folder.run(&["eval", "other.toml"]);
+        place.0.put("other.toml", &budget);
+        let output = place.run(&["eval", "other.toml"]);
         assert!(
             said(&output).contains("only files are read"),
             "{}",
@@ -320,38 +304,38 @@ mod on_unix {
     /// Standard output under its other names, and as a file that is read.
     #[test]
     fn standard_output_is_known() {
-        let folder = Folder::new("stdout");
+        let place = Place::new("stdout");
         let to = |file: &str, arguments: &[&str]| {
             let file = std::fs::File::options()
                 .append(true)
                 .create(true)
-                .open(folder.0.join(file));
+                .open(place.0.join(file));
             let mut program = common::program();
-            let program = program.current_dir(&folder.0).args(arguments);
+            let program = program.current_dir(&place.0).args(arguments);
             program
                 .stdout(file.expect("a file"))
                 .output()
                 .expect("the program runs")
         };
-        folder.put("log.txt", "before\n");
+        place.0.put("log.txt", "before\n");
         for name in ["-", "/dev/stdout"] {
             let output = to("log.txt", &["eval", "budget.toml", "--no-mc", "-o", name]);
             assert_eq!(output.status.code(), Some(0), "{}", said(&output));
         }
-        let log = folder.text("log.txt");
+        let log = place.0.text("log.txt");
         assert!(
             log.starts_with("before\n") && log.matches("━━━").count() >= 2,
             "{log}"
         );
         let output = to("budget.toml", &["eval", "budget.toml", "--no-mc"]);
         assert_eq!(output.status.code(), Some(2));
-        assert_eq!(folder.text("budget.toml"), BUDGET);
+        assert_eq!(place.0.text("budget.toml"), BUDGET);
     }
 
     /// The pages are longer than what a pipe holds.
     #[test]
     fn a_reader_that_has_gone_away_is_no_error() {
-        let folder = Folder::new("pipe");
+        let place = Place::new("pipe");
         for arguments in [
             ["explain", "keys"].as_slice(),
             &["--help"],
@@ -359,7 +343,7 @@ mod on_unix {
             &["verify", "--json"],
         ] {
             let mut program = common::program();
-            let program = program.current_dir(&folder.0).args(arguments);
+            let program = program.current_dir(&place.0).args(arguments);
             let running = program
                 .stdout(Stdio::piped())
                 .stderr(Stdio::piped())
@@ -382,9 +366,9 @@ mod on_unix {
 
     #[test]
     fn an_interrupt_ends_with_a_message_and_nothing_is_written() {
-        let folder = Folder::new("interrupt");
+        let place = Place::new("interrupt");
         let mut program = common::program();
-        let program = program.current_dir(&folder.0);
+        let program = program.current_dir(&place.0);
         let arguments = ["eval", "budget.toml", "--trials", "1e12", "-o", "report.md"];
         let running = program.args(arguments).stderr(Stdio::piped()).spawn();
         let running = running.expect("the program runs");
@@ -397,14 +381,14 @@ mod on_unix {
         let output = running.wait_with_output().expect("the program ends");
         assert_eq!(output.status.code(), Some(130), "{}", said(&output));
         assert_eq!(said(&output), "interrupted: nothing is written\n");
-        assert!(!folder.0.join("report.md").exists());
+        assert!(!place.0.join("report.md").exists());
     }
 }
 
 /// Words that are found in texts come back without what a terminal would obey.
 #[test]
 fn words_to_explain_command_no_terminal() {
-    let output = Folder::new("explain-hostile").run(&["explain", "creep\r"]);
+    let output = Place::new("explain-hostile").run(&["explain", "creep\r"]);
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(
         text.contains("no topic of its own") && text.contains("lag"),
@@ -421,7 +405,7 @@ proptest! {
     fn no_output_commands_a_terminal(
         title in hostile(), label in hostile(), name in hostile(), head in hostile(),
     ) {
-        let folder = Folder::new("hostile");
+        let place = Place::new("hostile");
         let toml = |text: &str| serde_json::to_string(text).expect("a string");
         let name: String = name.chars().filter(|c| !"/\0".contains(*c)).collect();
         let path = format!("{name}.toml");
@@ -430,10 +414,10 @@ proptest! {
              V = {{ value = 5, unit = \"V\", u = 0.1, description = {} }}\nI = {{ value = 20, unit = \"mA\", u = 0.05 }}\n",
             toml(&title), toml(&label), toml(&label), toml(&title),
         );
-        folder.put(&path, &budget);
-        folder.put("faulty.toml", &budget.replace("u = 0.05", &format!("{} = 3", toml(&head))));
-        folder.put("case.toml", &CASE.replace("recording.csv", "evil.csv"));
-        folder.put("evil.csv", &RECORDING.replace("x,y", &format!("x,{},y", head.replace([',', '\n', '"'], ""))));
+        place.0.put(&path, &budget);
+        place.0.put("faulty.toml", budget.replace("u = 0.05", &format!("{} = 3", toml(&head))));
+        place.0.put("case.toml", CASE.replace("recording.csv", "evil.csv"));
+        place.0.put("evil.csv", RECORDING.replace("x,y", &format!("x,{},y", head.replace([',', '\n', '"'], ""))));
         for arguments in [
             ["eval", "--no-mc", path.as_str()].as_slice(),
             &["eval", "--no-mc", "--markdown", "--lang", "zh", &path],
@@ -449,7 +433,7 @@ proptest! {
             if arguments.iter().any(|argument| argument.starts_with('-') && argument.len() > 10 || argument.is_empty()) {
                 continue;
             }
-            let output = folder.run(arguments);
+            let output = place.run(arguments);
             for bytes in [&output.stdout, &output.stderr] {
                 let text = String::from_utf8_lossy(bytes);
                 let obeyed = text.chars().find(|c| is_obeyed(*c));
@@ -494,12 +478,12 @@ proptest! {
         around in prop::collection::vec(0..3_usize, 4),
     ) {
         remember_reads();
-        let folder = Folder::new("links");
+        let place = Place::new("links");
         for file in 0..4 {
-            folder.put(&format!("f{file}"), &format!("content {file}"));
+            place.0.put(format!("f{file}"), format!("content {file}"));
         }
         for (link, (to, kind)) in links.iter().enumerate() {
-            let (from, to) = (folder.0.join(format!("l{link}")), folder.0.join(format!("f{to}")));
+            let (from, to) = (place.0.join(format!("l{link}")), place.0.join(format!("f{to}")));
             let _ = match kind {
                 #[cfg(unix)]
                 0 => std::os::unix::fs::symlink(to, from),
@@ -513,14 +497,14 @@ proptest! {
         };
         let mut inputs = Vec::new();
         for index in read {
-            let path = folder.0.join(name(index));
+            let path = place.0.join(name(index));
             if let Ok(content) = Files::Disk.read(&path) {
                 inputs.push((path, content));
             }
         }
         let written = written.iter().zip(&around).map(|(index, around)| {
             let way = ["", "./", "sub/../"][*around];
-            write::Output { path: folder.0.join(format!("{way}{}", name(*index))), content: b"new".to_vec() }
+            write::Output { path: place.0.join(format!("{way}{}", name(*index))), content: b"new".to_vec() }
         });
         let result = write::write(&written.collect::<Vec<_>>(), Replacing::Anything);
         for (path, content) in inputs {

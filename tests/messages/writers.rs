@@ -9,7 +9,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use crate::common;
+use crate::common::{self, Folder};
 
 /// A command, what it writes, and the option that says where; `OUT` stands for the place.
 struct Writer {
@@ -145,19 +145,14 @@ fn every_option_that_names_an_output_is_a_writer() {
     assert_eq!(missing, [""; 0], "options that neither list has");
 }
 
-/// A folder with everything that the writers read, removed afterwards.
-struct Place(PathBuf);
+/// A folder with everything that the writers read.
+struct Place(Folder);
 
 impl Place {
     fn new(name: &str) -> Place {
-        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).expect("a folder");
-        let place = Place(path);
+        let place = Place(common::folder(name));
         common::bent_line(&place.0);
-        let put = |name: &str, text: &str| {
-            std::fs::write(place.0.join(name), text).expect("a file");
-        };
+        let put = |name: &str, text: &str| place.0.put(name, text);
         put(
             "budget.toml",
             "title = \"Resistance\"\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\"\n[input]\n\
@@ -206,7 +201,7 @@ impl Place {
 
     /// What is there, with its content.
     fn all(&self) -> Vec<(PathBuf, Vec<u8>)> {
-        let mut folders = vec![self.0.clone()];
+        let mut folders = vec![self.0.to_path_buf()];
         let mut all = Vec::new();
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
@@ -221,12 +216,6 @@ impl Place {
         }
         all.sort();
         all
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 

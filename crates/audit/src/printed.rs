@@ -2,6 +2,7 @@
 
 use gumption_core::letters;
 use gumption_core::quantity::Decimal;
+use gumption_format::document::column_letters;
 
 /// Where a figure stands: sheet, row and column, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
@@ -17,13 +18,7 @@ pub struct Place {
 impl Place {
     /// As spreadsheets write it: `C7`.
     pub fn a1(&self) -> String {
-        let (mut column, mut letters) = (self.column + 1, Vec::new());
-        while column > 0 {
-            letters.push(char::from(b'A' + ((column - 1) % 26) as u8));
-            column = (column - 1) / 26;
-        }
-        let letters: String = letters.into_iter().rev().collect();
-        format!("{letters}{}", self.row + 1)
+        format!("{}{}", column_letters(self.column), self.row + 1)
     }
 }
 

@@ -83,6 +83,16 @@ impl Said {
         Said::new("{}", vec![("0", Value::Row(between, members))])
     }
 
+    /// The first of some names, and `…` where there are more.
+    pub fn first(names: &[impl AsRef<str>], most: usize) -> Self {
+        let first = names.iter().take(most).map(AsRef::as_ref);
+        let first = Said::row(Between::Comma, first);
+        match names.len() > most {
+            true => say!("{first} …"),
+            false => first,
+        }
+    }
+
     /// The same with another name wherever this one is inserted.
     #[must_use]
     pub fn renamed(mut self, name: &str, other: &str) -> Self {

@@ -170,11 +170,10 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
             blocks.push(Block::Paragraph(quality(l, noises)));
         }
         None => blocks.push(Block::Paragraph(
-            l.pick(
-                "The deviations are too few to tell the noises apart, or the readings do not vary.",
-                "偏差点数太少，或读数无变化，无法分离噪声。",
+            say!(
+                "The deviations are too few to tell the noises apart, or the readings do not vary."
             )
-            .into(),
+            .in_language(l),
         )),
     }
     blocks.push(Block::Section(
@@ -189,15 +188,10 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
 fn plot(report: &AllanReport<'_>) -> Plot {
     let l = report.language;
     let points = &report.allan.points;
-    let layer = |name: &str, tone, marks| Layer {
-        name: name.into(),
-        tone,
-        marks,
-    };
     let intervals = points.iter().map(|p| [p.tau, p.interval[0], p.interval[1]]);
     let deviations = points.iter().map(|p| [p.tau, p.deviation]);
-    let mut layers = vec![layer(
-        &format!(
+    let mut layers = vec![Layer::new(
+        format!(
             "{} {}",
             l.pick("confidence interval", "置信区间"),
             probability(report.allan.probability)
@@ -206,19 +200,26 @@ fn plot(report: &AllanReport<'_>) -> Plot {
         Marks::Band(intervals.collect()),
     )];
     if let Some(noises) = report.noises {
-        layers.extend(slopes(report, noises).map(|(name, line)| layer(name, Tone::Quiet, line)));
+        layers
+            .extend(slopes(report, noises).map(|(name, line)| Layer::new(name, Tone::Quiet, line)));
         let curve = points.iter().map(|p| [p.tau, noises.deviation(p.tau)]);
         let name = l.pick("the noises together", "各噪声之和");
-        layers.push(layer(name, Tone::Contrast, Marks::Line(curve.collect())));
+        layers.push(Layer::new(
+            name,
+            Tone::Contrast,
+            Marks::Line(curve.collect()),
+        ));
     }
     let name = l.pick("Allan deviation", "阿伦偏差");
-    layers.push(layer(name, Tone::Main, Marks::Points(deviations.collect())));
+    layers.push(Layer::new(
+        name,
+        Tone::Main,
+        Marks::Points(deviations.collect()),
+    ));
     Plot {
         id: "allan".into(),
         panels: vec![Panel {
-            title: l
-                .pick("Allan deviation over averaging time", "阿伦偏差与平均时间")
-                .into(),
+            title: say!("Allan deviation over averaging time").in_language(l),
             x: Axis::logarithmic("τ", symbol(report.time)),
             y: Axis::logarithmic("σ(τ)", symbol(report.unit)),
             layers,
@@ -330,10 +331,7 @@ fn unit_of(report: &AllanReport<'_>, law: PowerLaw) -> String {
 }
 
 fn quality(l: Language, noises: &Noises) -> String {
-    let limits = l.pick(
-        "Where the recording does not show a noise, “<” says below what it is with about 95 % probability: the limit is approximate, since Allan variances of few degrees of freedom are not normal.",
-        "记录中不显示的噪声以“<”给出约 95 % 概率的上限；自由度小的阿伦方差不服从正态分布，该上限为近似值。",
-    );
+    let limits = say!("Where the recording does not show a noise, “<” says below what it is with about 95 % probability: the limit is approximate, since Allan variances of few degrees of freedom are not normal.").in_language(l);
     let p = significant(noises.p_value, 2);
     match noises.explain() {
         false => say!("{limits} These noises do not explain the deviations (p = {p}): something else is in the recording, such as a drift, a period or quantisation.").in_language(l),

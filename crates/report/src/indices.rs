@@ -21,11 +21,11 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
         .pick("Sensitivity indices (Sobol')", "灵敏度指数（Sobol'）")
         .to_string();
     let Some(Some(of)) = indices.measurands.get(measurand) else {
-        let none = l.pick(
-            "There are no sensitivity indices, because the measurand has no standard deviation.",
-            "被测量的标准差不存在，故没有灵敏度指数。",
-        );
-        return vec![Block::Section(title), Block::Paragraph(none.to_string())];
+        let none = say!(
+            "There are no sensitivity indices, because the measurand has no standard deviation."
+        )
+        .in_language(l);
+        return vec![Block::Section(title), Block::Paragraph(none)];
     };
     let mut blocks = vec![
         Block::Section(title),

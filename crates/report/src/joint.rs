@@ -32,11 +32,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     }
     if joint.degenerate {
         blocks.push(Block::Paragraph(
-            l.pick(
-                "At least one measurand is a linear function of the others, so that no joint coverage region exists; use the single intervals.",
-                "至少一个输出量是其他输出量的线性函数，联合包含区域不存在；请使用各输出量的包含区间。",
-            )
-            .to_string(),
+            say!("At least one measurand is a linear function of the others, so that no joint coverage region exists; use the single intervals.").in_language(l),
         ));
         return blocks;
     }

@@ -111,13 +111,10 @@ pub(super) fn few_readings(
             let factor = result.filter(|_| refuted.is_empty());
             let follows = factor.map_or(refuted, |result| of_factor(report, result, components));
             let more = match narrower {
-                true => "",
-                false => l.pick(
-                    "More readings would bring both together.",
-                    "增加测量次数可使两者接近。",
-                ),
+                true => String::new(),
+                false => say!("More readings would bring both together.").in_language(l),
             };
-            [format!("{few}{space}{drawn}"), follows, more.to_string()]
+            [format!("{few}{space}{drawn}"), follows, more]
         }
     };
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();

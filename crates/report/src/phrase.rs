@@ -8,11 +8,6 @@ pub(super) fn section(l: Language, en: &str, zh: &str) -> Block {
     Block::Section(l.pick(en, zh).to_owned())
 }
 
-/// A paragraph that is always the same.
-pub(super) fn paragraph(l: Language, en: &str, zh: &str) -> Block {
-    Block::Paragraph(l.pick(en, zh).to_owned())
-}
-
 /// A table whose heads are in both languages.
 pub(super) fn table<const N: usize>(l: Language, columns: [(&str, &str, ColumnKind); N]) -> Table {
     Table::new(columns.map(|(en, zh, kind)| (l.pick(en, zh), kind)))

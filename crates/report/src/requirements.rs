@@ -129,10 +129,7 @@ fn improvements(together: &Together) -> &[Improvement] {
 /// The cheapest way, or that there is none; nothing where none is needed.
 fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
     let l = report.language;
-    let title = Block::Section(
-        l.pick("Together, at the least cost", "共同改进，代价最小")
-            .to_owned(),
-    );
+    let title = Block::Section(say!("Together, at the least cost").in_language(l));
     let improved = match together {
         Together::Reached => return Vec::new(),
         Together::Floor(floor) => {

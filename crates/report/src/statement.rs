@@ -206,11 +206,8 @@ impl Subject<'_> {
             StatedProbability::Of(p) => probability(p),
             StatedProbability::Unnamed => return String::new(),
             StatedProbability::Refuted => {
-                let words = self.language.pick(
-                    ", a fixed factor, for which no coverage probability is stated",
-                    "；k 取约定值，不注明包含概率",
-                );
-                return words.to_string();
+                return say!(", a fixed factor, for which no coverage probability is stated")
+                    .in_language(self.language);
             }
         };
         match (self.gum.coverage.named_basis(), self.language) {

@@ -1,5 +1,6 @@
 //! Two versions of a budget: what each edit changes.
 
+use gumption_fault::say;
 use gumption_format::document::{Block, ColumnKind, Document, Row, Table};
 use gumption_format::machine::{Machine, Number, record};
 use gumption_gum::versions::{Changed, Figures, Incomparable, Shares, Versions};
@@ -16,12 +17,10 @@ pub fn versions(found: &Versions, language: Language) -> Document {
 pub fn incomparable(why: &Incomparable, language: Language) -> String {
     match why {
         Incomparable::Failed(error) => error.said().in_language(language),
-        Incomparable::Refused(_) | Incomparable::Unreadable => language
-            .pick(
-                "one of the versions has faults, or no rows: both have to be evaluated to be compared",
-                "其中一个版本有错误或没有数据行：两个版本都能计算才能比较",
-            )
-            .to_owned(),
+        Incomparable::Refused(_) | Incomparable::Unreadable => say!(
+            "one of the versions has faults, or no rows: both have to be evaluated to be compared"
+        )
+        .in_language(language),
     }
 }
 
@@ -91,11 +90,8 @@ fn blocks(found: &Versions, l: Language) -> Vec<Block> {
         l.pick("What was changed", "改动的影响").to_owned(),
     )];
     if found.edits.is_empty() {
-        let same = l.pick(
-            "No entry that enters a figure differs.",
-            "影响数值的条目没有不同。",
-        );
-        blocks.push(Block::Paragraph(same.to_owned()));
+        let same = say!("No entry that enters a figure differs.").in_language(l);
+        blocks.push(Block::Paragraph(same));
         return blocks;
     }
     for one in &found.measurands {
@@ -103,16 +99,10 @@ fn blocks(found: &Versions, l: Language) -> Vec<Block> {
         blocks.push(Block::Table(table(found, one, l)));
     }
     let how = match found.shares {
-        Shares::Mean => l.pick(
-            "By the law of propagation of uncertainty. What an edit changes depends on which others are made already: its share is the mean over all orders in which the edits can be made (Shapley value), and the shares add up to the whole change. Entries on one line cannot be made without each other.",
-            "按不确定度传播律计算。一处改动的影响取决于其他改动是否已作出：其份额为按各种先后顺序逐一改动的平均值（沙普利值），各份额之和等于总变化。同一行的条目不能单独改动。",
-        ),
-        Shares::Alone => l.pick(
-            "By the law of propagation of uncertainty. There are many edits: each is made alone in the earlier version, and what all of them together change beyond that is left.",
-            "按不确定度传播律计算。改动较多：在较早版本中逐一单独改动，合在一起多出的部分列为剩余。",
-        ),
+        Shares::Mean => say!("By the law of propagation of uncertainty. What an edit changes depends on which others are made already: its share is the mean over all orders in which the edits can be made (Shapley value), and the shares add up to the whole change. Entries on one line cannot be made without each other.").in_language(l),
+        Shares::Alone => say!("By the law of propagation of uncertainty. There are many edits: each is made alone in the earlier version, and what all of them together change beyond that is left.").in_language(l),
     };
-    blocks.push(Block::Paragraph(how.to_owned()));
+    blocks.push(Block::Paragraph(how));
     blocks
 }
 

@@ -208,16 +208,18 @@ fn slashed(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tempfile::TempDir;
 
-    fn shelf(name: &str) -> Shelf {
-        let root = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&root).expect("a folder");
-        Shelf::new(std::fs::canonicalize(root).expect("a folder"))
+    /// A shelf of the test's own, with its folder.
+    fn shelf() -> (TempDir, Shelf) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let root = std::fs::canonicalize(&folder).expect("a folder");
+        (folder, Shelf::new(root))
     }
 
     #[test]
     fn only_what_was_seen_is_replaced() {
-        let shelf = shelf("saved");
+        let (_folder, shelf) = shelf();
         assert!(shelf.save("a.toml", "one", None).is_ok());
         assert!(matches!(
             shelf.save("a.toml", "two", None),
@@ -234,12 +236,11 @@ mod tests {
             Err(Unsaved::Conflict(None))
         ));
         assert_eq!(shelf.list()["files"], json!(["a.toml"]));
-        std::fs::remove_dir_all(&shelf.root).expect("removed");
     }
 
     #[test]
     fn nothing_is_saved_outside() {
-        let shelf = shelf("outside");
+        let (_folder, shelf) = shelf();
         for path in [
             "../a.toml",
             "/tmp/a.toml",
@@ -262,17 +263,15 @@ mod tests {
                 Err(Unsaved::Outside)
             ));
         }
-        std::fs::remove_dir_all(&shelf.root).expect("removed");
     }
 
     #[test]
     fn what_was_typed_is_kept() {
-        let shelf = shelf("kept");
+        let (_folder, shelf) = shelf();
         shelf.save("a.toml", "one", None).expect("saved");
         shelf.keep("a.toml", "on");
         assert_eq!(shelf.open("a.toml").expect("a text")["draft"], "on");
         shelf.keep("a.toml", "one");
         assert!(shelf.open("a.toml").expect("a text")["draft"].is_null());
-        std::fs::remove_dir_all(&shelf.root).expect("removed");
     }
 }

@@ -1,12 +1,14 @@
 //! Lines of a width that can be read.
 
+use gumption_core::letters::is_chinese;
+
 /// A paragraph on lines of at most 90 characters; lines of an example, which are indented, stay as
 /// they are.
 pub(super) fn wrapped(paragraph: &str) -> String {
     if paragraph.lines().any(|l| l.starts_with("  ")) {
         return paragraph.to_string();
     }
-    if paragraph.contains(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)) {
+    if paragraph.contains(is_chinese) {
         return broken(paragraph);
     }
     filled(paragraph.split_whitespace(), " ")

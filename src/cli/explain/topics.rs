@@ -187,6 +187,8 @@ fn owned(words: &[&str]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use gumption_core::letters::is_chinese;
+
     use super::super::search::found;
     use super::*;
 
@@ -215,7 +217,6 @@ mod tests {
     /// Titles in Chinese are headlines, and find their code; two codes of one title would be one fault to the reader.
     #[test]
     fn every_code_has_a_chinese_title_of_its_own() {
-        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
         let mut titles: Vec<&str> = Vec::new();
         for code in codes() {
             let title = code.title_zh;
@@ -231,7 +232,6 @@ mod tests {
     /// What is explained is explained in Chinese.
     #[test]
     fn every_explanation_has_its_chinese() {
-        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
         let mut missing = Vec::new();
         for topic in topics(Language::Chinese) {
             let named = [Section::Profiles].contains(&topic.section);

@@ -4,13 +4,13 @@ mod browser;
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Stdio};
 
 use serde_json::{Value, json};
 
 use crate::common::cases::{self, folder};
-use crate::common::{program, root};
+use crate::common::{Folder, program, root};
 
 const BUDGET: &str = "title = \"T\"\n[measurand.Y]\nmodel = \"a * b\"\nunit = \"V\"\n[input]\n\
     a = { value = 2, unit = \"V\", u = 0.1 }\nb = { value = 3, u = 0.01 }\n";
@@ -22,7 +22,7 @@ struct Served {
     host: String,
     /// `/TOKEN/`.
     base: String,
-    folder: PathBuf,
+    folder: Folder,
 }
 
 impl Served {
@@ -33,7 +33,7 @@ impl Served {
         }
         let mut program = program()
             .arg("serve")
-            .arg(&folder)
+            .arg(folder.as_os_str())
             .stdout(Stdio::piped())
             .spawn()
             .expect("the program runs");
@@ -98,7 +98,6 @@ impl Drop for Served {
     fn drop(&mut self) {
         let _ = self.program.kill();
         let _ = self.program.wait();
-        let _ = std::fs::remove_dir_all(&self.folder);
     }
 }
 

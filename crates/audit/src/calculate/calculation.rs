@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
+use gumption_core::special::student_t_two_sided_quantile;
 use gumption_core::statistics::effective_freedom_of;
 
 use crate::claim::{Correlation, K_OF_RECTANGLE};
@@ -282,13 +282,7 @@ pub fn dominates(largest: f64, u_c: f64) -> bool {
 pub fn t(p: f64, nu: f64) -> f64 {
     // A search looks the same few factors up thousands of times.
     thread_local!(static KNOWN: RefCell<HashMap<(u64, u64), f64>> = RefCell::default());
-    let quantile = || {
-        if nu.is_finite() {
-            student_t_two_sided_quantile(p, nu.max(1.0))
-        } else {
-            normal_two_sided_quantile(p)
-        }
-    };
+    let quantile = || student_t_two_sided_quantile(p, nu.max(1.0));
     KNOWN.with_borrow_mut(|known| {
         *known
             .entry((p.to_bits(), nu.to_bits()))

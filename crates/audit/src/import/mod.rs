@@ -11,7 +11,7 @@ use crate::units;
 use gumption_core::model::is_reserved;
 use gumption_fault::language::Language;
 use gumption_fault::say;
-use gumption_format::toml::writing::quoted;
+use gumption_format::toml::writing::{correlation, quoted};
 
 use input::Input;
 pub(crate) use writing::{comment, number};
@@ -69,13 +69,8 @@ pub(crate) fn budget_file(case: &Case<'_>, language: Language) -> String {
         text += &input.text(&unit);
     }
     for pair in &claimed.correlations {
-        let _ = write!(
-            text,
-            "\n[[correlation]]\nbetween = [{}, {}]\nr = {}\n",
-            quoted(&reason(claimed, &names, pair.a, model.is_some())),
-            quoted(&reason(claimed, &names, pair.b, model.is_some())),
-            pair.r
-        );
+        let between = [pair.a, pair.b].map(|i| reason(claimed, &names, i, model.is_some()));
+        text += &correlation([&between[0], &between[1]], pair.r);
     }
     text
 }

@@ -3,7 +3,7 @@
 use gumption_core::quantity::to_digits;
 use gumption_fault::Said;
 use gumption_fault::language::Language;
-use gumption_format::toml::writing::quoted;
+use gumption_format::toml::writing;
 
 use crate::claim::Claimed;
 use crate::units;
@@ -23,7 +23,7 @@ pub(super) fn remark(said: Said, language: Language) -> String {
 /// The line of a unit that is known, in symbols.
 pub(super) fn line_of_unit(unit: &str) -> String {
     match units::parse(unit) {
-        Some(_) => format!("unit = {}\n", quoted(&units::in_symbols(unit))),
+        Some(_) => writing::line("unit", &units::in_symbols(unit)),
         None => String::new(),
     }
 }
@@ -38,10 +38,5 @@ pub(crate) fn comment(text: &str) -> String {
 
 /// A number as it was typed: no digits that a product of doubles adds.
 pub(crate) fn number(x: f64) -> String {
-    let rounded = to_digits(x, 13);
-    if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
-        format!("{rounded:e}")
-    } else {
-        format!("{rounded}")
-    }
+    writing::number(to_digits(x, 13))
 }

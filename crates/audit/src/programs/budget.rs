@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use gumption_core::distribution::Entry;
-use gumption_format::toml::writing::{key, quoted};
+use gumption_format::toml::writing::{self, key, line, quoted};
 
 use crate::claim::Shape;
 use crate::import::{comment, number, title};
@@ -36,15 +36,14 @@ pub(crate) fn budget_file(statement: &Statement, language: Language) -> String {
         text += &quantity(input);
     }
     for (a, b, r) in &statement.correlations {
-        let pair = [a, b].map(|name| quoted(name)).join(", ");
-        let _ = write!(text, "\n[[correlation]]\nbetween = [{pair}]\nr = {r}\n");
+        text += &writing::correlation([a, b], *r);
     }
     text
 }
 
 fn measurand(statement: &Statement, result: &Equation) -> String {
     let mut text = format!("\n[measurand.{}]\n", key(&result.name));
-    text += &described(&result.description);
+    text += &line("description", &result.description);
     let steps = statement.steps_of(result);
     if steps.is_empty() {
         let _ = writeln!(text, "model = {}", quoted(&result.formula));
@@ -59,7 +58,7 @@ fn measurand(statement: &Statement, result: &Equation) -> String {
             result.formula
         );
     }
-    text + &with_unit(&result.unit)
+    text + &line("unit", &result.unit)
 }
 
 fn quantity(input: &Input) -> String {
@@ -69,16 +68,16 @@ fn quantity(input: &Input) -> String {
         "input"
     };
     let mut text = format!("\n[{table}.{}]\n", key(&input.name));
-    text += &described(&input.description);
+    text += &line("description", &input.description);
     // Readings give their mean themselves.
     let from_readings = input
         .parts
         .iter()
         .any(|part| matches!(part.known, Known::Readings(_, None)));
     if let Some(value) = input.value.filter(|_| !from_readings) {
-        let _ = writeln!(text, "value = {}", exact(value));
+        let _ = writeln!(text, "value = {}", writing::number(value));
     }
-    text += &with_unit(&input.unit);
+    text += &line("unit", &input.unit);
     match input.parts.as_slice() {
         [] => {}
         [part] => {
@@ -153,7 +152,7 @@ impl Part {
             }
             Known::Step(step) => vec![key("step", *step)],
             Known::Readings(readings, of) => {
-                let list: Vec<String> = readings.iter().map(|x| exact(*x)).collect();
+                let list: Vec<String> = readings.iter().map(|x| writing::number(*x)).collect();
                 let of = of.map(|of| match of {
                     1.0 => "of = \"single\"".into(),
                     m => format!("of = {m}"),
@@ -168,30 +167,5 @@ impl Part {
             lines.push(format!("dof = {}", number(dof)));
         }
         lines
-    }
-}
-
-fn described(text: &str) -> String {
-    if text.is_empty() {
-        String::new()
-    } else {
-        format!("description = {}\n", quoted(text))
-    }
-}
-
-fn with_unit(unit: &str) -> String {
-    if unit.is_empty() {
-        String::new()
-    } else {
-        format!("unit = {}\n", quoted(unit))
-    }
-}
-
-/// A number with all its digits.
-fn exact(x: f64) -> String {
-    if x != 0.0 && !(1e-4..1e9).contains(&x.abs()) {
-        format!("{x:e}")
-    } else {
-        format!("{x}")
     }
 }

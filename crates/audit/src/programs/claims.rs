@@ -4,6 +4,7 @@ use crate::claim::{Claimed, Correlation, Coverage, Row, Stated, Understood};
 use crate::printed::{Place, Printed};
 use crate::read::symbol_at;
 use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
+use gumption_core::statistics::mean_and_deviation;
 
 use super::statement::{Equation, Input, Known, Part, Statement, uses};
 
@@ -177,10 +178,8 @@ impl Part {
             },
             Known::Readings(readings, of) => {
                 let n = readings.len() as f64;
-                let mean = readings.iter().sum::<f64>() / n;
-                let square: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
                 Stated::Deviation {
-                    s: figure(libm::sqrt(square / (n - 1.0))),
+                    s: figure(mean_and_deviation(readings).1),
                     n: Some(n),
                     m: of.unwrap_or(n),
                     pooled: None,

@@ -1,6 +1,6 @@
 //! Formulas of other programs in the language of models.
 
-use gumption_core::model::functions;
+use gumption_core::model::is_reserved;
 use gumption_fault::say;
 
 use super::trouble::{Piece, Trouble};
@@ -160,14 +160,9 @@ pub(super) fn name(text: &str) -> String {
         .chars()
         .map(|c| if c.is_alphanumeric() { c } else { '_' })
         .collect();
-    let reserved = matches!(
-        plain.as_str(),
-        "pi" | "π" | "then" | "else" | "and" | "or" | "not"
-    );
-    if reserved || functions().iter().any(|function| function.name == plain) {
-        format!("{plain}_")
-    } else {
-        plain
+    match is_reserved(&plain) {
+        true => plain + "_",
+        false => plain,
     }
 }
 

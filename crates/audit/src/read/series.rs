@@ -1,6 +1,7 @@
 //! Readings that a sheet lists beside its table, and what it says of them.
 
 use gumption_core::quantity::{Decimal, Rounding};
+use gumption_core::statistics::mean_and_deviation;
 
 use crate::claim::{Row, Stated};
 use crate::printed::{Printed, leading};
@@ -182,10 +183,7 @@ fn count(line: &str) -> Option<f64> {
 
 /// The experimental standard deviation (JCGM 100, 4.2.2), called by four digits.
 fn computed(readings: &[f64]) -> Option<Printed> {
-    let n = readings.len() as f64;
-    let mean = readings.iter().sum::<f64>() / n;
-    let square: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
-    let s = libm::sqrt(square / (n - 1.0));
+    let (_, s) = mean_and_deviation(readings);
     let shown = Decimal::from_f64(s).round_to_significant(4, Rounding::HalfEven);
     (s > 0.0).then(|| Printed::exact(s, &shown.print_plain()))
 }

@@ -2,6 +2,7 @@
 
 use gumption_core::calendar::Day;
 use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
+use gumption_core::statistics::mean_and_squares;
 
 use crate::claim::Stated;
 use crate::printed::{Printed, leading};
@@ -56,9 +57,8 @@ pub(super) fn autocorrelation(seen: &Seen<'_>) -> Vec<Hit> {
     const FEWEST: usize = 8;
     let of = |readings: Vec<f64>| {
         let n = readings.len() as f64;
-        let mean = readings.iter().sum::<f64>() / n;
+        let (mean, square) = mean_and_squares(&readings);
         let apart: Vec<f64> = readings.iter().map(|x| x - mean).collect();
-        let square: f64 = apart.iter().map(|x| x * x).sum();
         let lagged: f64 = apart.windows(2).map(|two| two[0] * two[1]).sum();
         let (r, bound) = (lagged / square, 2.0 / libm::sqrt(n));
         let is_like = readings.len() >= FEWEST && square > 0.0 && r > bound;

@@ -1,12 +1,13 @@
 //! The functions of spreadsheets that budgets are computed with.
 
 use gumption_core::special::{normal_quantile, student_t_quantile, student_t_two_sided_quantile};
-use gumption_core::statistics::median;
+use gumption_core::statistics::{mean_and_deviation, mean_and_squares, median};
 
 /// The value of a function; nothing for one that is not known, or of other arguments than it takes.
 pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
     let sum = |of: fn(f64) -> f64| x.iter().copied().map(of).sum::<f64>();
     let count = x.len() as f64;
+    let squares = || mean_and_squares(x).1;
     match (name, x) {
         ("PI", []) => Some(std::f64::consts::PI),
         ("SQRT", [x]) => Some(libm::sqrt(*x)),
@@ -41,20 +42,14 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
         ("AVERAGE", [_, ..]) => Some(sum(|x| x) / count),
         ("MAX", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::max)),
         ("MIN", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::min)),
-        ("STDEV" | "STDEV.S", [_, _, ..]) => Some(libm::sqrt(squares(x) / (count - 1.0))),
-        ("STDEVP" | "STDEV.P", [_, ..]) => Some(libm::sqrt(squares(x) / count)),
-        ("VAR" | "VAR.S", [_, _, ..]) => Some(squares(x) / (count - 1.0)),
-        ("VARP" | "VAR.P", [_, ..]) => Some(squares(x) / count),
-        ("DEVSQ", [_, ..]) => Some(squares(x)),
+        ("STDEV" | "STDEV.S", [_, _, ..]) => Some(mean_and_deviation(x).1),
+        ("STDEVP" | "STDEV.P", [_, ..]) => Some(libm::sqrt(squares() / count)),
+        ("VAR" | "VAR.S", [_, _, ..]) => Some(squares() / (count - 1.0)),
+        ("VARP" | "VAR.P", [_, ..]) => Some(squares() / count),
+        ("DEVSQ", [_, ..]) => Some(squares()),
         ("MEDIAN", [_, ..]) => Some(median(x.to_vec())),
         _ => None,
     }
-}
-
-/// The sum of the squares of deviations from the mean.
-fn squares(x: &[f64]) -> f64 {
-    let mean = x.iter().sum::<f64>() / x.len() as f64;
-    x.iter().map(|x| (x - mean) * (x - mean)).sum()
 }
 
 fn standard_normal(below: f64) -> Option<f64> {

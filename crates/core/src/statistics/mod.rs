@@ -5,12 +5,14 @@
 //! |---|---|
 //! | `readings` | mean, standard deviation, autocorrelation, pooling |
 //! | `anova` | readings in groups |
+//! | `doubles` | range, mean and standard deviation of doubles |
 //! | `freedom` | effective degrees of freedom; lengths without overflow |
 //! | `median` | the middle of numbers |
 //! | `nested` | readings in subgroups of groups |
 //! | `outliers` | tests of the most outlying reading |
 
 mod anova;
+mod doubles;
 mod freedom;
 mod median;
 mod nested;
@@ -19,6 +21,7 @@ mod readings;
 
 pub use crate::dd::Dd;
 pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
+pub use doubles::{mean_and_deviation, mean_and_squares, range};
 pub use freedom::{effective_freedom, effective_freedom_of, norm, power_of_two, root_mean_square};
 pub use median::median;
 pub use nested::{Nested, Verdicts};

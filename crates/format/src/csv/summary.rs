@@ -7,6 +7,7 @@ use super::faults::NOT_A_NUMBER;
 use super::field::{number, says_missing};
 use super::sheet::{Row, Sheet};
 use gumption_core::quantity::Decimal;
+use gumption_core::statistics::range;
 use gumption_fault::{Fault, say};
 
 /// What a line of means is called.
@@ -151,9 +152,9 @@ fn chance(
         };
         let place = Decimal::from_text(&text.replace(',', ".")).and_then(|own| own.place());
         let digit = 10f64.powi(place.unwrap_or(0));
+        let (least, most) = range(numbers.iter().copied());
+        let range = most - least;
         let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-        let range = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            - numbers.iter().copied().fold(f64::INFINITY, f64::min);
         // Half a digit, beside what the sum is rounded by.
         let is_mean = (value - mean).abs() <= 0.5 * digit + 1e-12 * mean.abs();
         is_mean.then(|| if range > digit { digit / range } else { 1.0 })

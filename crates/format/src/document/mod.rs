@@ -20,7 +20,7 @@ pub use certificate::{
 };
 pub use math::Math;
 pub use plot::{Axis, Bar, Layer, Marks, Panel, Plot, Scale, Tone};
-pub use sheet::{Bars, Entry, Held, Sheet, address};
+pub use sheet::{Bars, Entry, Held, Sheet, address, column_letters};
 pub use table::{Cell, Column, ColumnKind, Row, Table};
 
 use crate::machine::{Json, Machine};

@@ -95,6 +95,28 @@ pub struct Bar {
     pub to: f64,
 }
 
+impl Plot {
+    /// What is neither letter nor digit of an id is an underscore.
+    pub fn new(id: &str, panels: Vec<Panel>) -> Self {
+        let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
+        Plot {
+            id: id.chars().map(plain).collect(),
+            panels,
+        }
+    }
+}
+
+impl Layer {
+    /// What marks stand for, and how much they stand out.
+    pub fn new(name: impl Into<String>, tone: Tone, marks: Marks) -> Self {
+        Layer {
+            name: name.into(),
+            tone,
+            marks,
+        }
+    }
+}
+
 impl Axis {
     /// A linear axis.
     pub fn linear(quantity: impl Into<String>, unit: impl Into<String>) -> Self {

@@ -70,6 +70,11 @@ impl Entry {
 
 /// The name of a cell, as `$C$4`; column and row from 0.
 pub fn address(column: usize, row: usize) -> String {
+    format!("${}${}", column_letters(column), row + 1)
+}
+
+/// The letters of a column, which is counted from 0.
+pub fn column_letters(column: usize) -> String {
     let mut letters = String::new();
     let mut rest = column + 1;
     while rest > 0 {
@@ -77,7 +82,7 @@ pub fn address(column: usize, row: usize) -> String {
         letters.insert(0, char::from(b'A' + digit as u8));
         rest = (rest - 1) / 26;
     }
-    format!("${letters}${}", row + 1)
+    letters
 }
 
 #[cfg(test)]

@@ -5,24 +5,24 @@ use std::io::{Error, ErrorKind};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
+use tempfile::TempDir;
+
 use super::Growing;
 use super::mark;
 use super::steps::{Author, DISK, Disk, Step};
 use super::write::{Output, Replacing, Unwritten, Why, write, write_by};
 
 /// A folder of its own, removed afterwards.
-struct Folder(PathBuf);
+struct Folder(TempDir);
 
 impl Folder {
     fn new(name: &str) -> Folder {
-        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).expect("a folder");
-        Folder(path)
+        let prefix = format!("gumption-{name}-");
+        Folder(TempDir::with_prefix(prefix).expect("a folder"))
     }
 
     fn at(&self, name: &str) -> PathBuf {
-        self.0.join(name)
+        self.0.path().join(name)
     }
 
     fn put(&self, name: &str, text: &str) -> PathBuf {
@@ -39,12 +39,6 @@ impl Folder {
         let entries = std::fs::read_dir(&self.0).expect("a folder").flatten();
         let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
         names.filter(|name| name.contains(".gumption-")).collect()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
@@ -182,7 +176,7 @@ fn a_program_killed_at_any_step_leaves_whole_files_and_the_next_one_clears_up() 
 #[test]
 fn drafts_of_living_writers_stay() {
     let folder = Folder::new("living");
-    let draft = DISK.create(&folder.0, None).expect("a draft");
+    let draft = DISK.create(folder.0.path(), None).expect("a draft");
     folder.put(".gumption-1-1.tmp", "of a killed program");
     folder.put(".gumption-notes", "of somebody");
     write(&[output(folder.at("a"), NEW)], Replacing::Nothing).expect("written");
@@ -339,7 +333,7 @@ fn a_restored_file_is_somebodys() {
         author: Author::Somebody,
         ..DISK
     };
-    let mut draft = disk.create(&folder.0, None).expect("a draft");
+    let mut draft = disk.create(folder.0.path(), None).expect("a draft");
     disk.fill(&mut draft, OLD.as_bytes()).expect("filled");
     assert!(!mark::is_ours(&draft.path));
 }
@@ -347,7 +341,7 @@ fn a_restored_file_is_somebodys() {
 #[test]
 fn a_file_that_grows_takes_its_place_when_it_is_whole() {
     let folder = Folder::new("growing");
-    let path = folder.0.join("results.csv");
+    let path = folder.at("results.csv");
     let whole = b"a,b\n1,2\n";
     let mut growing = Growing::begin(&path, Replacing::Own).expect("it may be written");
     growing.add(b"a,b\n").expect("it is written");
@@ -369,7 +363,7 @@ fn a_file_that_grows_takes_its_place_when_it_is_whole() {
 #[test]
 fn a_file_that_grows_keeps_its_other_names() {
     let folder = Folder::new("growing-names");
-    let [path, other] = ["results.csv", "other.csv"].map(|name| folder.0.join(name));
+    let [path, other] = ["results.csv", "other.csv"].map(|name| folder.at(name));
     std::fs::write(&path, "old").expect("it is written");
     std::fs::hard_link(&path, &other).expect("another name");
     let mut growing = Growing::begin(&path, Replacing::Anything).expect("it may be written");

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::format::Format;
 use super::inline::{Run, runs};
 use super::parts::{Part, parts};
-use super::svg::svg;
+use super::svg::{escaped, svg};
 use crate::document::{Block, Cell, ColumnKind, Document, Finding, Math, Plot, Row, Table};
 use gumption_fault::language::Language;
 
@@ -345,20 +345,6 @@ fn mathml(math: &Math) -> String {
         }
         Math::Root(inside) => format!("<msqrt>{}</msqrt>", mathml(inside)),
     }
-}
-
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 /// Screen and A4, light and dark; contrast at least 7 : 1.

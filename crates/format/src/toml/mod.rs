@@ -24,7 +24,7 @@ pub use table::{
     FromToml, Hints, Key, KeyRow, Present, Raw, Reader, Slot, Stated, Table, described, doc_text,
     in_order, inner, read_table, schema_of, table, unknown_word, words,
 };
-pub use values::{Amount, Cell, Date, Dof, amount_for_date, amount_parts, unit_of_amount};
+pub use values::{Amount, Cell, Date, Dof, amount_for_date, amount_parts, number, unit_of_amount};
 
 // What the macros name.
 #[doc(hidden)]

@@ -25,7 +25,7 @@ fn float(number: &DeFloat<'_>) -> Option<f64> {
 }
 
 /// The number that a TOML value is, of either TOML type.
-fn number(value: &DeValue<'_>) -> Option<f64> {
+pub fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(number) => integer(number).map(|n| n as f64),
         DeValue::Float(number) => float(number),

@@ -1,4 +1,4 @@
-//! Texts and names as TOML has them, for files that the program writes.
+//! Texts, names and numbers as TOML has them, for files that the program writes.
 
 use std::fmt::Write;
 
@@ -23,6 +23,28 @@ pub fn quoted(text: &str) -> String {
 pub fn key(name: &str) -> String {
     let bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if bare { name.to_owned() } else { quoted(name) }
+}
+
+/// A key with its text, as a line; nothing of an empty one.
+pub fn line(key: &str, text: &str) -> String {
+    match text {
+        "" => String::new(),
+        text => format!("{key} = {}\n", quoted(text)),
+    }
+}
+
+/// A number with all its digits, as a power of ten where it has many zeros.
+pub fn number(x: f64) -> String {
+    match x == 0.0 || (1e-4..1e9).contains(&x.abs()) {
+        true => format!("{x}"),
+        false => format!("{x:e}"),
+    }
+}
+
+/// The table of a correlation of two quantities.
+pub fn correlation(between: [&str; 2], r: f64) -> String {
+    let between = between.map(quoted).join(", ");
+    format!("\n[[correlation]]\nbetween = [{between}]\nr = {r}\n")
 }
 
 #[cfg(test)]

@@ -47,8 +47,6 @@ pub struct Statistics {
     pub max: f64,
     /// Autocorrelation of successive readings.
     pub lag1: f64,
-    /// What |lag1| of independent readings hardly exceeds: 2/√n.
-    pub lag_limit: f64,
     /// Effective number of independent readings, where u was corrected for their correlation.
     pub effective: Option<f64>,
 }

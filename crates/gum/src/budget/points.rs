@@ -15,7 +15,7 @@ use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{
     Heading, Row, Sheet, mean_of_rows, mend_of_number, overload, text_of, two_decimal_signs,
 };
-use gumption_format::toml::{Raw, Stated};
+use gumption_format::toml::{Raw, Stated, number};
 
 /// The columns of a table whose rows replace values of a budget.
 #[derive(Debug)]
@@ -307,17 +307,6 @@ impl Written {
             key: whole.clone(),
         };
         (stated, Spanned::new(whole, moved(raw, place)))
-    }
-}
-
-fn number(value: &DeValue<'_>) -> Option<f64> {
-    match value {
-        DeValue::Integer(number) => {
-            let whole = i64::from_str_radix(number.as_str(), number.radix()).ok();
-            whole.map(|whole| whole as f64)
-        }
-        DeValue::Float(number) => number.as_str().parse().ok(),
-        _ => None,
     }
 }
 

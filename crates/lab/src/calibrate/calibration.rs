@@ -20,7 +20,7 @@ use super::trouble::Trouble;
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
-use gumption_core::statistics::effective_freedom_of;
+use gumption_core::statistics::{effective_freedom_of, mean_and_deviation, range};
 
 /// A calibration that was evaluated.
 #[derive(Debug, Clone)]
@@ -139,16 +139,10 @@ pub struct PartScatter {
 
 impl PartScatter {
     fn of(values: &[f64]) -> PartScatter {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        let extreme = |better: fn(f64, f64) -> f64| values.iter().copied().reduce(better);
-        let range = extreme(f64::max).zip(extreme(f64::min));
-        PartScatter {
-            mean,
-            s: (squares / (n - 1.0)).sqrt(),
-            range: range.map_or(f64::NAN, |(most, least)| most - least),
-        }
+        let (mean, s) = mean_and_deviation(values);
+        let (least, most) = range(values.iter().copied());
+        let range = most - least;
+        PartScatter { mean, s, range }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use gumption_core::special::student_t_sf;
-use gumption_core::statistics::{Dd, Serial, Series, effective_freedom, norm};
+use gumption_core::statistics::{Dd, Serial, Series, effective_freedom, norm, range};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
 /// no time that grows with the square of their length.
@@ -53,8 +53,6 @@ pub struct Drift {
     pub u_slope: f64,
     /// Change from the first to the last reading, as the line says.
     pub total: f64,
-    /// Its standard uncertainty.
-    pub u_total: f64,
     /// The value of the line at the mean time, which is the mean of the readings; its standard
     /// uncertainty is this. Where there is a drift, it is smaller than [`Average::u`], which takes
     /// the drift for slow noise.
@@ -99,6 +97,7 @@ impl Average {
         }
         let scatter = Scatter::new(&present);
         let effective = n as f64 / scatter.factor;
+        let (minimum, maximum) = range(present.iter().copied());
         Ok(Average {
             mean: scatter.series.mean(),
             s: scatter.series.standard_deviation(),
@@ -108,8 +107,8 @@ impl Average {
             effective,
             u: (scatter.variance(1.0) / effective).sqrt(),
             dof: scatter.dof,
-            minimum: present.iter().copied().fold(f64::INFINITY, f64::min),
-            maximum: present.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            minimum,
+            maximum,
         })
     }
 }
@@ -140,14 +139,8 @@ impl Average {
                 // Readings that do not scatter at all: as of equal parts, however small.
                 false => sum(&|one| one.dof),
             },
-            minimum: parts
-                .iter()
-                .map(|one| one.minimum)
-                .fold(f64::INFINITY, f64::min),
-            maximum: parts
-                .iter()
-                .map(|one| one.maximum)
-                .fold(f64::NEG_INFINITY, f64::max),
+            minimum: range(parts.iter().map(|one| one.minimum)).0,
+            maximum: range(parts.iter().map(|one| one.maximum)).1,
         })
     }
 }
@@ -197,7 +190,6 @@ impl Drift {
             slope,
             u_slope,
             total: slope * duration,
-            u_total: u_slope * duration.abs(),
             u_middle: (variance / n).sqrt(),
             dof,
             p_value,

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 use std::ops::Range;
 
 use super::Labels;
+use gumption_core::statistics::range;
 
 /// A stretch of successive rows that belong together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -135,18 +136,18 @@ fn usual(stimulus: &[f64], fewest: usize) -> f64 {
     const SLOW: f64 = 10.0;
     /// A commanded stimulus whose last digit flickers now and then: that digit is no larger part of the range.
     const DIGIT: f64 = 1.0 / 500.0;
-    let range = |values: &[f64]| {
-        let present = || values.iter().copied().filter(|x| !x.is_nan());
-        present().fold(f64::NEG_INFINITY, f64::max) - present().fold(f64::INFINITY, f64::min)
+    let width = |values: &[f64]| {
+        let (least, most) = range(values.iter().copied());
+        most - least
     };
-    let median_range = |window: usize| {
-        let ranges = stimulus.windows(window).map(range);
-        quantile(ranges.filter(|range| range.is_finite()).collect(), 0.5)
+    let median_width = |window: usize| {
+        let widths = stimulus.windows(window).map(width);
+        quantile(widths.filter(|width| width.is_finite()).collect(), 0.5)
     };
-    let of_pairs = OF_DIFFERENCE * median_range(2);
-    let of_some = 4.0 * median_range(fewest.clamp(2, 10));
+    let of_pairs = OF_DIFFERENCE * median_width(2);
+    let of_some = 4.0 * median_width(fewest.clamp(2, 10));
     // Where dwells are shorter than that many rows, most windows hold a step, which is no noise.
-    let noise = of_some <= (SLOW * of_pairs).max(4.0 * DIGIT * range(stimulus));
+    let noise = of_some <= (SLOW * of_pairs).max(4.0 * DIGIT * width(stimulus));
     if noise {
         of_pairs.max(of_some)
     } else {

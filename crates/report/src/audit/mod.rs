@@ -38,7 +38,6 @@ pub fn audit_schema() -> Value {
 
 fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
     let claimed = audit.found.case.claimed;
-    let pick = |en: &str, zh: &str| language.pick(en, zh).to_string();
     let title = if claimed.title.is_empty() {
         file
     } else {
@@ -51,29 +50,26 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
         Block::Statement(words::verdict(audit, language)),
     ];
     if audit.verdict == Verdict::Sound && !audit.found.untold.is_empty() {
-        blocks.push(Block::Section(pick(
-            "What the printed digits do not tell",
-            "所印位数不能判断的差错",
-        )));
+        blocks.push(Block::Section(
+            say!("What the printed digits do not tell").in_language(language),
+        ));
         let sets = audit.found.untold.iter().map(std::slice::from_ref);
         blocks.push(explanations(audit, sets, language));
     }
     let listed = &audit.found.explanations;
     let is_open = !matches!(audit.verdict, Verdict::Sound | Verdict::NotRecomputed);
     if is_open && !listed.is_empty() {
-        blocks.push(Block::Section(pick(
-            "What gives the claimed figures",
-            "能给出所声称数值的差错",
-        )));
+        blocks.push(Block::Section(
+            say!("What gives the claimed figures").in_language(language),
+        ));
         let sets = listed.iter().map(|one| one.acts.as_slice());
         blocks.push(explanations(audit, sets, language));
         blocks.extend(words::question(audit, language).map(Block::Paragraph));
     }
     if !audit.found.gaps.is_empty() && listed.is_empty() {
-        blocks.push(Block::Section(pick(
-            "Where the claim departs",
-            "声称值从何处开始不符",
-        )));
+        blocks.push(Block::Section(
+            say!("Where the claim departs").in_language(language),
+        ));
         blocks.push(Block::List(
             audit
                 .found
@@ -84,10 +80,9 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
         ));
     }
     blocks.extend(findings(audit, language));
-    blocks.push(Block::Section(pick(
-        "Recomputed from what is stated",
-        "由所述信息重新计算",
-    )));
+    blocks.push(Block::Section(
+        say!("Recomputed from what is stated").in_language(language),
+    ));
     blocks.push(Block::Table(rows(audit, language)));
     if let Some(trouble) = &audit.found.case.trouble {
         blocks.push(Block::Paragraph(
@@ -95,27 +90,22 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
         ));
     }
     if audit.found.takes_result() {
-        blocks.push(Block::Paragraph(pick(
-            "The result itself was taken as it stands: the sheet states no model, and no estimates, that would give it.",
-            "测量结果本身未作核对：表中没有能给出该结果的测量模型或估计值。",
-        )));
+        blocks.push(Block::Paragraph(say!("The result itself was taken as it stands: the sheet states no model, and no estimates, that would give it.").in_language(language)));
     }
     if audit.found.takes_freedom() {
-        blocks.push(Block::Paragraph(pick(
-            "ν_eff was taken as it stands: no row tells its degrees of freedom.",
-            "有效自由度未作核对：表中没有任何一行给出自由度。",
-        )));
+        blocks.push(Block::Paragraph(
+            say!("ν_eff was taken as it stands: no row tells its degrees of freedom.")
+                .in_language(language),
+        ));
     }
-    blocks.push(Block::Section(pick(
-        "How the sheet was understood",
-        "对表格的理解",
-    )));
+    blocks.push(Block::Section(
+        say!("How the sheet was understood").in_language(language),
+    ));
     blocks.push(Block::Table(understood(claimed, language)));
     if !claimed.unplaced.is_empty() {
-        blocks.push(Block::Paragraph(pick(
-            "Not used in the calculation:",
-            "计算中未用到：",
-        )));
+        blocks.push(Block::Paragraph(
+            say!("Not used in the calculation:").in_language(language),
+        ));
         blocks.push(Block::List(
             claimed
                 .unplaced
@@ -313,11 +303,7 @@ fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
                 .pick("Questions to the laboratory", "请实验室说明的问题")
                 .to_string(),
         ));
-        let paragraph = language.pick(
-            "The verdict does not depend on them: it is about figures that follow from what the sheet states.",
-            "以下问题不影响结论：结论只说明各数值能否由表中信息得出。",
-        );
-        blocks.push(Block::Paragraph(paragraph.to_string()));
+        blocks.push(Block::Paragraph(say!("The verdict does not depend on them: it is about figures that follow from what the sheet states.").in_language(language)));
         let mut questions: Vec<&Finding> = questions.iter().collect();
         questions.sort_by_key(|finding| finding.rule().weight);
         let texts = questions

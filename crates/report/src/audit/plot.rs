@@ -2,6 +2,7 @@
 
 use gumption_audit::Audit;
 use gumption_audit::printed::Printed;
+use gumption_fault::say;
 use gumption_format::document::{Axis, Bar, Layer, Marks, Panel, Plot, Tone};
 
 use super::{is_marked, words};
@@ -41,28 +42,24 @@ pub(super) fn contributions(number: usize, audit: &Audit<'_>, l: Language) -> Op
         });
         Marks::Bars(bars.collect())
     };
-    let layer = |name: &str, tone, marks| Layer {
-        name: name.to_owned(),
-        tone,
-        marks,
-    };
-    let mut layers = vec![layer(
+    let mut layers = vec![Layer::new(
         l.pick("recomputed", "重新计算"),
         Tone::Main,
         bars(&|pair| pair.recomputed),
     )];
     if pairs.iter().any(|pair| pair.claimed.is_some()) {
         let claimed = bars(&|pair| pair.claimed.unwrap_or(f64::NAN));
-        layers.push(layer(l.pick("claimed", "声称"), Tone::Contrast, claimed));
+        layers.push(Layer::new(
+            l.pick("claimed", "声称"),
+            Tone::Contrast,
+            claimed,
+        ));
     }
-    let title = l.pick(
-        "Contributions, u_c and U: recomputed and as claimed",
-        "各分量、u_c 和 U：重新计算值与声称值",
-    );
+    let title = say!("Contributions, u_c and U: recomputed and as claimed").in_language(l);
     Some(Plot {
         id: format!("audit_{number}"),
         panels: vec![Panel {
-            title: title.to_owned(),
+            title,
             x: Axis::linear("|c·u|, u_c, U", audit.found.case.claimed.unit.as_str()),
             y: Axis::linear("", ""),
             layers,

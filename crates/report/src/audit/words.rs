@@ -144,10 +144,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             let k = significant(found.right.k, 3);
             vec![say!("Nothing is claimed that could be held against a calculation. From what is stated, U is {right_u} with k = {k}.").in_language(language)]
         }
-        Verdict::NotRecomputed => vec![language.pick(
-            "Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.",
-            "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
-        ).to_string()],
+        Verdict::NotRecomputed => vec![say!("Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.").in_language(language)],
     }
 }
 
@@ -220,25 +217,13 @@ fn in_unit(audit: &Audit<'_>, x: f64, digits: u8) -> String {
 fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
     let found = &audit.found;
     let footer = &found.case.claimed.footer;
-    let pick = |en: String, zh: String| match language {
-        Language::English => en,
-        Language::Chinese => zh,
-    };
     let other = found.other_result().zip(footer.y.as_ref());
     let verdict = match &other {
-        None => pick(
-            "Sound: every claimed figure follows from what the sheet states.".into(),
-            "无差错：全部声称值都能由表中信息得出。".into(),
-        ),
+        None => say!("Sound: every claimed figure follows from what the sheet states."),
         Some((right, y)) => {
             let (y, right) = (y.as_read(), significant(*right, 9));
-            pick(
-                format!(
-                    "Sound: every claimed figure of the uncertainty follows from what the sheet states. The result does not: y is {y} where the estimates give {right}."
-                ),
-                format!(
-                    "无差错：不确定度的全部声称值都能由表中信息得出。但测量结果不能：y 为 {y}，而由各估计值得 {right}。"
-                ),
+            say!(
+                "Sound: every claimed figure of the uncertainty follows from what the sheet states. The result does not: y is {y} where the estimates give {right}."
             )
         }
     };
@@ -249,38 +234,29 @@ fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
     let before = match open > 1e-3 * right {
         true => {
             let [low, high] = reach();
-            pick(
-                format!(
-                    "from {low} to {high} before rounding, since rows state no more than printed digits"
-                ),
-                format!("修约前在 {low} 与 {high} 之间，因为有的行只给出所印的位数"),
+            say!(
+                "from {low} to {high} before rounding, since rows state no more than printed digits"
             )
         }
-        false => pick(
-            format!("{exact} before rounding"),
-            format!("修约前 {exact}"),
-        ),
+        false => say!("{exact} before rounding"),
     };
     let u = match &footer.expanded {
         Some(claimed) => {
             let claimed = as_claimed(audit, claimed);
-            pick(
-                format!("U = {claimed}: {before}."),
-                format!("U = {claimed}：{before}。"),
-            )
+            say!("U = {claimed}: {before}.")
         }
-        None if audit.found.case.claimed.is_simulated() => say!("The U of Monte Carlo that is stated was not recomputed; by the law of propagation it is {before}.").in_language(language),
+        None if audit.found.case.claimed.is_simulated() => say!(
+            "The U of Monte Carlo that is stated was not recomputed; by the law of propagation it is {before}."
+        ),
         None => match unread_expanded(audit.found.case.claimed) {
             Some(line) => {
                 let line = &line.text;
-                say!("No U is understood, which may stand in the line “{line}”; it is {before}.").in_language(language)
+                say!("No U is understood, which may stand in the line “{line}”; it is {before}.")
             }
-            None => pick(
-                format!("No U is claimed; it is {before}."),
-                format!("没有声称 U；{before}。"),
-            ),
+            None => say!("No U is claimed; it is {before}."),
         },
     };
+    let [verdict, u] = [verdict, u].map(|said| said.in_language(language));
     vec![format!("{verdict}{}{u}", language.pick(" ", ""))]
 }
 
@@ -363,27 +339,18 @@ pub(super) fn gap(audit: &Audit<'_>, gap: &Gap, language: Language) -> String {
             };
             language.with_head(&place(&rows[*i], *i, language), language.pick(en, zh))
         }
-        Gap::Sum => language
-            .pick(
-                "Between the rows and u_c: no known way of combining the contributions gives it.",
-                "各行与 u_c 之间：已知的合成方式都不能给出该值。",
-            )
-            .into(),
-        Gap::Freedom => language
-            .pick(
-                "At ν_eff: it is not that of Welch and Satterthwaite.",
-                "ν_eff：不符合 Welch–Satterthwaite 公式。",
-            )
-            .into(),
-        Gap::Factor => language
-            .pick("At k: it is not that of the rule.", "k：不符合所述规则。")
-            .into(),
-        Gap::Expanded => language
-            .pick(
-                "Between u_c, k and U: the product, rounded, is not what is printed.",
-                "u_c、k 与 U 之间：乘积修约后与所印不符。",
-            )
-            .into(),
+        Gap::Sum => {
+            say!("Between the rows and u_c: no known way of combining the contributions gives it.")
+                .in_language(language)
+        }
+        Gap::Freedom => {
+            say!("At ν_eff: it is not that of Welch and Satterthwaite.").in_language(language)
+        }
+        Gap::Factor => say!("At k: it is not that of the rule.").in_language(language),
+        Gap::Expanded => {
+            say!("Between u_c, k and U: the product, rounded, is not what is printed.")
+                .in_language(language)
+        }
     }
 }
 

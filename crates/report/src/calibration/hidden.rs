@@ -115,9 +115,7 @@ impl Told<'_> {
             return say!("{name}{physics}: acts on no reading of this schedule.").in_language(l);
         }
         let visible = match alias.visible {
-            0.0 => l
-                .pick("the residuals show nothing of it", "残差完全不显示")
-                .to_owned(),
+            0.0 => say!("the residuals show nothing of it").in_language(l),
             share => say!("the residuals show {} % of it", percent(share)).in_language(l),
         };
         let unit = behind(&omitted.unit);

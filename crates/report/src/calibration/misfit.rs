@@ -38,18 +38,9 @@ pub(super) fn listed(found: &Calibration) -> Vec<&Residual> {
 
 pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<Block> {
     let way = match found.scatter {
-        Scatter::Residuals => l.pick(
-            "The scatter of the readings in the uncertainties above is the part of the residuals that the stated errors do not explain.",
-            "上列不确定度中的读数分散性取残差中已给出误差不能解释的部分。",
-        ),
-        Scatter::Dwells => l.pick(
-            "The scatter of the readings in the uncertainties above is that of the samples of each dwell; compare it with the residuals.",
-            "上列不确定度中的读数分散性取自各驻留段的采样；请与残差比较。",
-        ),
-        Scatter::Stated => l.pick(
-            "The uncertainties above contain the stated errors only; the residuals do not enter.",
-            "上列不确定度仅含所给出的误差，未计入残差。",
-        ),
+        Scatter::Residuals => say!("The scatter of the readings in the uncertainties above is the part of the residuals that the stated errors do not explain.").in_language(l),
+        Scatter::Dwells => say!("The scatter of the readings in the uncertainties above is that of the samples of each dwell; compare it with the residuals.").in_language(l),
+        Scatter::Stated => say!("The uncertainties above contain the stated errors only; the residuals do not enter.").in_language(l),
     };
     let mut blocks = vec![
         section(l, "Residuals", "残差"),
@@ -92,10 +83,7 @@ fn whole(campaign: &Campaign, found: &Calibration, l: Language) -> String {
         say!(" The residuals of {names} are smaller than the stated errors, and so few that they do not show how much smaller: all of them are taken, in place of the errors stated of each reading.")
             .in_language(l);
     if campaign.points.are_sampled() {
-        text += l.pick(
-            " The samples of the dwells tell the scatter better where nothing else changes between them: [noise] from = \"dwells\".",
-            "若驻留段之间没有其他变化，各段采样能更好地给出分散性：[noise] 中写 from = \"dwells\"。",
-        );
+        text += &say!(" The samples of the dwells tell the scatter better where nothing else changes between them: [noise] from = \"dwells\".").in_language(l);
     }
     text
 }
@@ -332,10 +320,7 @@ fn of_fit(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<(&'stati
         .map(|one| no_scatter(campaign, one, l));
     items.extend(patterns.map(coded("no-scatter")));
     if !found.linear {
-        items.push((REMARK, l.pick(
-            "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",
-            "方程对参数非线性：不确定度以及写出的预算取误差的一阶近似。",
-        ).to_owned()));
+        items.push((REMARK, say!("The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.").in_language(l)));
     }
     let misfits = found.responses.iter().filter_map(|one| misfit(one, l));
     items.extend(misfits.map(coded("misfit")));

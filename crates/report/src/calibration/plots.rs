@@ -13,19 +13,6 @@ const MOST_COEFFICIENTS: usize = 6;
 /// Bars that a reader takes in.
 const MOST_BARS: usize = 12;
 
-fn layer(name: &str, tone: Tone, marks: Marks) -> Layer {
-    Layer {
-        name: name.to_owned(),
-        tone,
-        marks,
-    }
-}
-
-fn id(kind: &str, name: &str) -> String {
-    let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
-    format!("{kind}_{}", name.chars().map(plain).collect::<String>())
-}
-
 /// The residuals of each response in the order of its readings, with their standard deviation.
 pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<Plot> {
     let declared = campaign.experiment.equations.responses();
@@ -45,20 +32,18 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
         if one.rms > 0.0 {
             let band = vec![[1.0, -one.rms, one.rms], [last, -one.rms, one.rms]];
             let name = l.pick("± RMS residual", "± 残差均方根");
-            layers.push(layer(name, Tone::Quiet, Marks::Band(band)));
+            layers.push(Layer::new(name, Tone::Quiet, Marks::Band(band)));
         }
-        layers.push(layer("", Tone::Quiet, Marks::Level(0.0)));
+        layers.push(Layer::new("", Tone::Quiet, Marks::Level(0.0)));
         let name = l.pick("residuals", "残差");
-        layers.push(layer(name, Tone::Main, Marks::data(points)));
-        Plot {
-            id: id("residuals", &one.response),
-            panels: vec![Panel {
-                title: say!("Residuals of {}", one.response).in_language(l),
-                x: Axis::linear(l.pick("reading", "读数序号"), ""),
-                y: Axis::linear(one.response.as_str(), symbol(&quantity.unit)),
-                layers,
-            }],
-        }
+        layers.push(Layer::new(name, Tone::Main, Marks::data(points)));
+        let panel = Panel {
+            title: say!("Residuals of {}", one.response).in_language(l),
+            x: Axis::linear(l.pick("reading", "读数序号"), ""),
+            y: Axis::linear(one.response.as_str(), symbol(&quantity.unit)),
+            layers,
+        };
+        Plot::new(&format!("residuals_{}", one.response), vec![panel])
     });
     plots.collect()
 }
@@ -83,15 +68,13 @@ pub(super) fn contributions(figures: &Figures, l: Language) -> Vec<Plot> {
                 return None;
             }
             bars.push(bar(format!("u({})", one.name), one.u));
-            Some(Plot {
-                id: id("causes", &one.name),
-                panels: vec![Panel {
-                    title: say!("What makes {} uncertain", one.name).in_language(l),
-                    x: Axis::linear("u", symbol(&one.unit.difference())),
-                    y: Axis::linear("", ""),
-                    layers: vec![layer("", Tone::Main, Marks::Bars(bars))],
-                }],
-            })
+            let panel = Panel {
+                title: say!("What makes {} uncertain", one.name).in_language(l),
+                x: Axis::linear("u", symbol(&one.unit.difference())),
+                y: Axis::linear("", ""),
+                layers: vec![Layer::new("", Tone::Main, Marks::Bars(bars))],
+            };
+            Some(Plot::new(&format!("causes_{}", one.name), vec![panel]))
         });
     plots.collect()
 }

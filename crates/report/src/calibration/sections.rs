@@ -4,7 +4,7 @@ use crate::figures::with_unit;
 use crate::joint::matrix;
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, effective, exact, in_unit, probability, significant};
-use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
+use crate::phrase::{named_row, numbers_beside, section, table};
 use crate::symbol;
 use gumption_core::model::{Role, Symbol};
 use gumption_fault::say;
@@ -135,11 +135,7 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
     vec![
         section(l, "Coefficients", "系数"),
         Block::Table(table.without_empty_columns()),
-        paragraph(
-            l,
-            "significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).",
-            "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
-        ),
+        Block::Paragraph(say!("significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).").in_language(l)),
         Block::Paragraph(
             say!("U = k·u, with k by the profile {profile} for a normal or t-distribution.")
                 .in_language(l),
@@ -230,11 +226,7 @@ pub(super) fn parts(found: &Calibration, l: Language) -> Vec<Block> {
     vec![
         section(l, "One by one", "分别计算"),
         Block::Table(table),
-        paragraph(
-            l,
-            "The coefficients above are those of all points together; the scatter between the parts is in their residuals.",
-            "上列系数由全部测量点一并求得；各部分之间的分散已含在残差中。",
-        ),
+        Block::Paragraph(say!("The coefficients above are those of all points together; the scatter between the parts is in their residuals.").in_language(l)),
     ]
 }
 
@@ -256,11 +248,7 @@ pub(super) fn correlations(figures: &Figures, l: Language) -> Vec<Block> {
     if off_diagonal().all(|at| r[at].abs() < PRINTED) {
         return vec![
             heading,
-            paragraph(
-                l,
-                "All are 0.00; --json has the covariances.",
-                "均为 0.00；协方差见 --json。",
-            ),
+            Block::Paragraph(say!("All are 0.00; --json has the covariances.").in_language(l)),
         ];
     }
     let names: Vec<&str> = all.iter().map(|one| one.name.as_str()).collect();

@@ -12,17 +12,11 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
     match trouble {
         Trouble::TooFew { readings, parameters } => say!("{readings} reading{} cannot determine {parameters} parameters; measure at more points, or list fewer parameters.", plural(*readings)).in_language(l),
         Trouble::NoScatter { response, readings, parameters } => say!("The scatter of {response} is not known: {readings} reading{} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write noise.from = \"stated\".", plural(*readings)).in_language(l),
-        Trouble::NoSamples => l.pick(
-            "noise.from = \"dwells\" needs the samples of each dwell, and every row of this recording is one point. Name the columns that tell dwells apart, dwells = […], or write noise.from = \"residuals\".".into(),
-            "noise.from = \"dwells\" 需要每个驻留段的采样，而本记录每行即一个点。请用 dwells = […] 指明区分驻留段的列，或写 noise.from = \"residuals\"。".into(),
-        ),
+        Trouble::NoSamples => say!("noise.from = \"dwells\" needs the samples of each dwell, and every row of this recording is one point. Name the columns that tell dwells apart, dwells = […], or write noise.from = \"residuals\".").in_language(l),
         Trouble::NoWeights { response } => say!("weights = \"readings\" needs the standard uncertainty of every reading of {response}: state it in [reading.{response}], average samples in dwells, or write weights = \"equal\".").in_language(l),
         Trouble::Undetermined { combinations, begun } => {
             let head = say!("The readings do not tell the parameters apart:").in_language(l);
-            let tail = l.pick(
-                "Add points where their effects differ, or take one of them as known ([input.NAME] instead of [parameter.NAME]).",
-                "请增加使其影响不同的测量点，或将其中之一作为已知量（用 [input.NAME] 代替 [parameter.NAME]）。",
-            );
+            let tail = say!("Add points where their effects differ, or take one of them as known ([input.NAME] instead of [parameter.NAME]).").in_language(l);
             let list: Vec<String> = combinations.iter().map(|c| format!("  • {}", in_words(c, l))).collect();
             let elsewhere = (!begun.is_empty()).then(|| {
                 let names = begun.join(", ");
@@ -35,20 +29,17 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             let names = parameters.join(", ");
             say!("The equations are not linear in {names}, and the search needs a place to begin: state roughly [parameter.{}] start = ….", parameters[0]).in_language(l)
         }
-        Trouble::Undefined { point, response } => l.pick(
-            format!("The equation of {response} has no value in {}: check the start values, and the columns for zeros and signs.", point.en),
-            format!("{response} 的方程在 {} 处无定义：请检查初值以及各列中的零值和符号。", point.zh),
-        ),
+        Trouble::Undefined { point, response } => {
+            let point = l.pick(&point.en, &point.zh);
+            say!("The equation of {response} has no value in {point}: check the start values, and the columns for zeros and signs.").in_language(l)
+        }
         Trouble::NoConvergence { iterations } => say!("The search found no minimum in {iterations} steps: begin nearer to the solution, or check that each parameter matters.").in_language(l),
         Trouble::TooLarge { readings, bytes, most } => {
             let gib = |bytes: u64| bytes.div_ceil(1 << 30);
             let (needed, most) = (gib(*bytes), gib(*most));
             say!("A calibration of {readings} readings takes about {needed} GiB of memory, and at most {most} GiB are taken. Average the samples of each state first: [recording] dwells = [\"position\"], steps = \"omega\" or still = 50; or take every tenth row of the recording.").in_language(l)
         }
-        Trouble::Unsolvable => l.pick(
-            "The least-squares problem cannot be solved as it is stated.".into(),
-            "该最小二乘问题无法求解。".into(),
-        ),
+        Trouble::Unsolvable => say!("The least-squares problem cannot be solved as it is stated.").in_language(l),
         Trouble::InPart { label, trouble } => {
             let inner = sentences(trouble, l);
             say!("In \"{label}\": {inner}").in_language(l)

@@ -102,13 +102,8 @@ impl Assessment<'_> {
             DecisionRule::Simple | DecisionRule::Stated(_)
         );
         match self.found.acceptance {
-            None => self
-                .l
-                .pick(
-                    "no value: the uncertainty is too large for this tolerance",
-                    "无：对该容许区间而言不确定度过大",
-                )
-                .to_string(),
+            None => say!("no value: the uncertainty is too large for this tolerance")
+                .in_language(self.l),
             Some(acceptance) if stated => self.interval(acceptance, &exact),
             Some(acceptance) => self.interval(acceptance, &|x| self.limit(x)),
         }

@@ -20,13 +20,7 @@ impl Assessment<'_> {
         let label = l.pick("Conformance probability", "符合概率");
         if self.stated.process.is_some() {
             let both = known.probability.map_or_else(
-                || {
-                    l.pick(
-                        "none: the measured value is impossible for this process",
-                        "不存在：对该过程而言测得值不可能出现",
-                    )
-                    .to_string()
-                },
+                || say!("none: the measured value is impossible for this process").in_language(l),
                 |p| {
                     let p = related("p_c", &chance(p));
                     say!("{p}, with the knowledge of the process").in_language(l)

@@ -49,12 +49,10 @@ impl Assessment<'_> {
                 say!("non-binary (undecided near the limits), {both}").in_language(l)
             }
             DecisionRule::GlobalRisks(permitted) => self.permitted(permitted),
-            DecisionRule::Jjf1094 => l
-                .pick(
-                    "JJF 1094 (simple where U ≤ MPEV/3, else undecided within U of the limits)",
-                    "JJF 1094（U ≤ MPEV/3 时直接判定，否则限两侧 U 以内待定）",
-                )
-                .to_string(),
+            DecisionRule::Jjf1094 => {
+                say!("JJF 1094 (simple where U ≤ MPEV/3, else undecided within U of the limits)")
+                    .in_language(l)
+            }
         }
     }
 
@@ -73,12 +71,12 @@ impl Assessment<'_> {
         let (found, tolerance) = (self.found, self.stated.tolerance);
         let band = match found.acceptance {
             None => String::new(),
-            Some(accepted) if accepted != found.rejection => l
-                .pick(": undecided between two limits", "：两限之间待定")
-                .to_string(),
-            Some(accepted) if accepted == tolerance => l
-                .pick(": no guard band is needed", "：不需要保护带")
-                .to_string(),
+            Some(accepted) if accepted != found.rejection => {
+                say!(": undecided between two limits").in_language(l)
+            }
+            Some(accepted) if accepted == tolerance => {
+                say!(": no guard band is needed").in_language(l)
+            }
             Some(accepted) => {
                 let inwards = match tolerance.lower.is_finite() {
                     true => accepted.lower - tolerance.lower,

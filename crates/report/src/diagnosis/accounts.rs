@@ -3,7 +3,7 @@
 use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{aligned, percent, significant};
-use crate::phrase::{paragraph, section, table};
+use crate::phrase::{section, table};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -137,11 +137,7 @@ impl Teller<'_> {
             let cells = cells.chain(figures.unwrap_or_default()).chain([lambda]);
             table.push(cells.map(Into::into).collect());
         }
-        let key = paragraph(
-            l,
-            "χ² for ν degrees of freedom, with the noise as the answer has it, is what each leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; with noise so many times larger than claimed it would not be excluded; λ is its strength beside the answer. `--why EFFECT` has sizes.",
-            "χ²（自由度 ν，噪声同结论）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；若噪声为声称值的所示倍数，它便不会被排除；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
-        );
+        let key = Block::Paragraph(say!("χ² for ν degrees of freedom, with the noise as the answer has it, is what each leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; with noise so many times larger than claimed it would not be excluded; λ is its strength beside the answer. `--why EFFECT` has sizes.").in_language(l));
         vec![Block::Table(table), key]
     }
 
@@ -204,9 +200,7 @@ impl Teller<'_> {
                 let other = self.names.plain(of);
                 say!("In the place of {other}").in_language(l)
             }
-            None => l
-                .pick("As the name of what has none", "作为未能命名部分的名称")
-                .to_owned(),
+            None => say!("As the name of what has none").in_language(l),
         };
         let own = self.described(&instead.own);
         let (chi_squared, dof) = (significant(instead.chi_squared, 3), instead.dof);

@@ -3,7 +3,7 @@
 use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
-use crate::phrase::{paragraph, section, table};
+use crate::phrase::{section, table};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -158,16 +158,8 @@ fn if_independent(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block>
             "若相邻各行相互独立，则为何者",
         ),
         match diagnosis.noise.is_of_scale() {
-            true => paragraph(
-                l,
-                "This recording does not tell it from a scale that wanders. The same settings again in another order would, or a recording of one large input that is held still, which shows whether the scale wanders.",
-                "本记录无法将其与游走的标度区分。换一种次序重复同样的设定即可区分；或保持一个较大的输入不变进行记录，它能显示标度是否游走。",
-            ),
-            false => paragraph(
-                l,
-                "This recording does not tell it from noise that wanders. The same settings again in another order would, or a recording at rest below [noise] at_rest, which shows whether the noise wanders.",
-                "本记录无法将其与游走的噪声区分。换一种次序重复同样的设定即可区分；或在 [noise] at_rest 中给出静止记录，它能显示噪声是否游走。",
-            ),
+            true => Block::Paragraph(say!("This recording does not tell it from a scale that wanders. The same settings again in another order would, or a recording of one large input that is held still, which shows whether the scale wanders.").in_language(l)),
+            false => Block::Paragraph(say!("This recording does not tell it from noise that wanders. The same settings again in another order would, or a recording at rest below [noise] at_rest, which shows whether the noise wanders.").in_language(l)),
         },
     ];
     for slot in &found.examination.slots {
@@ -186,18 +178,13 @@ fn introduction(doubt: &Doubt<'_>, names: Names<'_>) -> String {
     let l = names.l;
     let (places, resembles) = match doubt {
         Doubt::Nothing => {
-            let text = l.pick(
-                "Something remains that has neither a name nor a place.",
-                "还有既无名称也无法定位的部分。",
-            );
-            return text.to_owned();
+            return say!("Something remains that has neither a name nor a place.").in_language(l);
         }
         Doubt::Uncertain => {
-            let text = l.pick(
-                "Named, but not with certainty: the name may be the shape of another effect.",
-                "有名称但不确定：它可能只是另一影响的形态。",
-            );
-            return text.to_owned();
+            return say!(
+                "Named, but not with certainty: the name may be the shape of another effect."
+            )
+            .in_language(l);
         }
         Doubt::At { places, resembles } => (places, *resembles),
     };
@@ -237,7 +224,7 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
         }
         if slot.state == State::Like {
             let text = only_like(diagnosis.likeness(slot), names.l);
-            blocks.push(Block::Paragraph(text.to_owned()));
+            blocks.push(Block::Paragraph(text));
         }
         let lines = [names.formula(case, diagnosis, alternative)].into_iter();
         let lines = lines.chain(multiplied(diagnosis, alternative, names.l));
@@ -261,32 +248,14 @@ fn unlisted(slot: &Slot, names: Names<'_>) -> Option<String> {
 }
 
 /// Why a name says no more than what the effect acts like.
-fn only_like(likeness: Likeness, l: Language) -> &'static str {
+fn only_like(likeness: Likeness, l: Language) -> String {
     match likeness {
-        Likeness::Weak => l.pick(
-            "Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.",
-            "目录中没有其他影响有此表现；但在此强度下，目录之外形状相近的影响看起来会相同。",
-        ),
-        Likeness::Open => l.pick(
-            "Something without a name is left beside it, and may have a part of what it explains.",
-            "此外还有无法命名的部分，它可能占其所解释的一部分。",
-        ),
-        Likeness::Piece => l.pick(
-            "Together with the other effects it may be a piece of one course that the catalogue does not have.",
-            "与并列的其他影响合起来，可能是目录中没有的某一种变化的各段。",
-        ),
-        Likeness::Form => l.pick(
-            "Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.",
-            "目录中没有其他影响有此表现；记录与此处给出的形式略有偏离：大于噪声，但不足以成为另一种影响。",
-        ),
-        Likeness::Uneven => l.pick(
-            "Nothing else in the catalogue acts like this, but parts of the recording differ in its size by more than noise does: it changed, or its form is another one.",
-            "目录中没有其他影响有此表现；但记录各部分给出的大小之差大于噪声：它发生了变化，或其形式有所不同。",
-        ),
-        Likeness::Absent => l.pick(
-            "Nothing else in the catalogue acts like this in the recording, but the recording held out is predicted no better with it than by the declared model.",
-            "目录中没有其他影响在此记录中有此表现；但加入它后，对留出记录的预测并不比声明的模型好。",
-        ),
+        Likeness::Weak => say!("Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.").in_language(l),
+        Likeness::Open => say!("Something without a name is left beside it, and may have a part of what it explains.").in_language(l),
+        Likeness::Piece => say!("Together with the other effects it may be a piece of one course that the catalogue does not have.").in_language(l),
+        Likeness::Form => say!("Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.").in_language(l),
+        Likeness::Uneven => say!("Nothing else in the catalogue acts like this, but parts of the recording differ in its size by more than noise does: it changed, or its form is another one.").in_language(l),
+        Likeness::Absent => say!("Nothing else in the catalogue acts like this in the recording, but the recording held out is predicted no better with it than by the declared model.").in_language(l),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::language::Language;
 use crate::number::{aligned, freedom, in_unit, significant};
-use crate::phrase::{named_row, paragraph, section, table};
+use crate::phrase::{named_row, section, table};
 use crate::symbol;
 use gumption_fault::say;
 use gumption_format::document::{
@@ -110,10 +110,9 @@ fn signal(adopted: &Adopted, l: Language) -> Option<Block> {
     let mut additions = adopted.extended.additions.iter();
     let named = additions.any(|addition| addition.text.contains("signal"));
     named.then(|| {
-        paragraph(
-            l,
-            "signal: what the fitted declared model gives besides constant terms.",
-            "signal：已拟合的声明模型中除常数项以外的部分。",
+        Block::Paragraph(
+            say!("signal: what the fitted declared model gives besides constant terms.")
+                .in_language(l),
         )
     })
 }
@@ -298,11 +297,8 @@ pub(super) fn parameters(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
         Block::Table(table.without_empty_columns()),
     ];
     if diagnosis.noise.may_be_correlated() {
-        let allowed = l.pick(
-            "u allows for errors that successive rows may have in common: the recording does not show any, and does not exclude them. `gumption calibrate` takes the errors of rows as independent.",
-            "u 已计入相邻各行误差可能相关：记录未显示相关，但也不能排除。`gumption calibrate` 视各行误差相互独立。",
-        );
-        blocks.push(Block::Paragraph(allowed.to_owned()));
+        let allowed = say!("u allows for errors that successive rows may have in common: the recording does not show any, and does not exclude them. `gumption calibrate` takes the errors of rows as independent.").in_language(l);
+        blocks.push(Block::Paragraph(allowed));
     }
     blocks
 }

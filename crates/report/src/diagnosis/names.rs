@@ -2,6 +2,7 @@
 
 use crate::language::Language;
 use crate::number::percent;
+use gumption_core::letters::is_chinese;
 use gumption_fault::say;
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::catalogue::{Cell, Node, Variation, Words};
@@ -165,13 +166,10 @@ impl<'a> Names<'a> {
     /// What a name leaves open: its order, and whether it acts on the output or on the scale.
     pub(super) fn open(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
         let same = match diagnosis.same_on_scale(one) {
-            Some(_) => self.l.pick(
-                " (or of the scale: the readings hardly vary)",
-                "（或标度的同类影响：读数几乎不变）",
-            ),
-            None => "",
+            Some(_) => say!(" (or of the scale: the readings hardly vary)").in_language(self.l),
+            None => String::new(),
         };
-        self.orders(diagnosis, one) + same
+        self.orders(diagnosis, one) + &same
     }
 
     /// That the order of a cause is open, where it is: what else than the name may hold.
@@ -234,7 +232,7 @@ fn by_slope(formula: &str, parameter: &str) -> String {
 
 /// A text without single blanks between Chinese characters.
 fn closed_up(text: &str) -> String {
-    let is_chinese = |c: Option<&char>| c.is_some_and(|c| ('\u{4e00}'..='\u{9fff}').contains(c));
+    let is_chinese = |c: Option<&char>| c.is_some_and(|c| is_chinese(*c));
     let letters: Vec<char> = text.chars().collect();
     let stays = |at: &usize| {
         let before = at.checked_sub(1).and_then(|before| letters.get(before));

@@ -16,14 +16,10 @@ pub fn assumed_noise(case: &Case, claimed: &Claimed, l: Language) -> String {
         return noise(case, claimed, l);
     }
     let why = match case.noise {
-        NoiseClaim::Replicates(_) => l.pick(
-            "replicates show it once their outputs are recorded",
-            "重复测量须待输出记录后才能给出噪声",
-        ),
-        _ => l.pick(
-            "not claimed, and no outputs are recorded",
-            "未声明，且输出尚未记录",
-        ),
+        NoiseClaim::Replicates(_) => {
+            say!("replicates show it once their outputs are recorded").in_language(l)
+        }
+        _ => say!("not claimed, and no outputs are recorded").in_language(l),
     };
     say!("not known ({why}): taken as 1 for one row, in the unit of the output; `[noise] u` states it").in_language(l)
 }
@@ -46,10 +42,7 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
         Origin::Arithmetic => {
             say!("none: the model meets every reading to the rounding of numbers").in_language(l)
         }
-        Origin::Case => l.pick(
-            "as stated in the case".to_owned(),
-            "由实验文件给出".to_owned(),
-        ),
+        Origin::Case => say!("as stated in the case").in_language(l),
         Origin::Column(name) => say!("from the column {name}").in_language(l),
         Origin::Replicates => {
             l.pick("from replicates", "由重复测量得到").to_owned() + &growth(claimed, l)
@@ -126,13 +119,10 @@ fn tails(claimed: &Claimed, l: Language) -> String {
 }
 
 /// That a recording at rest tells nothing of the course of the noise.
-fn white(claimed: &Claimed, l: Language) -> &'static str {
+fn white(claimed: &Claimed, l: Language) -> String {
     match &claimed.correlated {
-        Some(correlated) if matches!(correlated.memory, Memory::Claimed | Memory::Rounded) => "",
-        _ => l.pick(
-            ", as white noise (its course needs the time, by one name in both recordings, and 20 readings)",
-            "，按白噪声处理（计入其时间相关性需要两份记录有同名时间列，且至少 20 个读数）",
-        ),
+        Some(correlated) if matches!(correlated.memory, Memory::Claimed | Memory::Rounded) => String::new(),
+        _ => say!(", as white noise (its course needs the time, by one name in both recordings, and 20 readings)").in_language(l),
     }
 }
 

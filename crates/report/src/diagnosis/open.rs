@@ -3,7 +3,7 @@
 
 use crate::language::Language;
 use crate::number::{percent, significant};
-use crate::phrase::{paragraph, section, table};
+use crate::phrase::{section, table};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -61,11 +61,7 @@ pub(super) fn unseen(unseen: &Unseen<'_>, estimates: &[Estimated], names: Names<
                 say!("{rest} more are in the JSON.").in_language(l),
             ));
         }
-        blocks.push(paragraph(
-            l,
-            "Sizes are uniformly distributed between − and + the usual shift of the output, as far as the recording does not exclude them. State better ones below [diagnosis] typical.",
-            "大小按 ± 常见偏移内的均匀分布计，并扣除记录所排除的部分；可在 [diagnosis] typical 中给出更合适的值。",
-        ));
+        blocks.push(Block::Paragraph(say!("Sizes are uniformly distributed between − and + the usual shift of the output, as far as the recording does not exclude them. State better ones below [diagnosis] typical.").in_language(l)));
     }
     let hidden = unseen.hidden.iter().take(MOST).map(|(line, at)| {
         let (what, parameter) = (names.full(line.cell), &estimates[*at].name);

@@ -2,7 +2,7 @@
 
 use crate::language::Language;
 use crate::number::{NONE, percent, significant};
-use crate::phrase::{paragraph, section, table};
+use crate::phrase::{section, table};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -26,11 +26,7 @@ pub(super) fn blocks(case: &Case, outlook: &Outlook, l: Language) -> Vec<Block> 
         Block::Fields(fields(case, outlook, l)),
         section(l, "What it would see", "可见的影响"),
         Block::Table(effects(outlook, names)),
-        paragraph(
-            l,
-            "Sizes are the largest shift of the output. “detected” is seen as good as always (λ = 6), “told apart” is told from the nearest rival as good as always (κ = 5), “usual” would not surprise.",
-            "大小为输出的最大偏移。“可检出”指几乎总能发现（λ = 6），“可区分”指几乎总能与最接近的解释区分（κ = 5），“常见”为不足为奇的大小。",
-        ),
+        Block::Paragraph(say!("Sizes are the largest shift of the output. “detected” is seen as good as always (λ = 6), “told apart” is told from the nearest rival as good as always (κ = 5), “usual” would not surprise.").in_language(l)),
     ];
     blocks.extend(classes(outlook, names));
     blocks.extend(open::unseen(&outlook.unseen(), &outlook.unknowns, names));

@@ -16,11 +16,8 @@ pub(super) fn plots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Plot
             let sum: f64 = rows.iter().map(|row| numbers[*row]).sum();
             sum / rows.len() as f64
         });
-        let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
-        plots.push(Plot {
-            id: format!("residuals_{}", name.chars().map(plain).collect::<String>()),
-            panels: panels(case, diagnosis, &axis, &means.collect::<Vec<_>>(), l),
-        });
+        let panels = panels(case, diagnosis, &axis, &means.collect::<Vec<_>>(), l);
+        plots.push(Plot::new(&format!("residuals_{name}"), panels));
     };
     if case.with_role(Role::Time).next().is_none() {
         let numbers: Vec<f64> = (1..=case.rows).map(|row| row as f64).collect();
@@ -43,11 +40,6 @@ pub(super) fn plots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Plot
 fn panels(case: &Case, diagnosis: &Diagnosis, x: &Axis, at: &[f64], l: Language) -> Vec<Panel> {
     let adopted = diagnosis.adopted.as_ref();
     let panel = |(response, declared): (usize, &Response)| {
-        let layer = |name: &str, tone, marks| Layer {
-            name: name.to_owned(),
-            tone,
-            marks,
-        };
         let points = |residuals: &DVector<f64>| {
             let own = residuals.rows(response * at.len(), at.len());
             let points = at.iter().zip(own.iter()).map(|(x, y)| [*x, *y]);
@@ -55,13 +47,13 @@ fn panels(case: &Case, diagnosis: &Diagnosis, x: &Axis, at: &[f64], l: Language)
         };
         let before = l.pick("with the declared model", "声明的模型");
         let after = l.pick("with the physics that was left out", "加入遗漏效应后");
-        let mut layers = vec![layer("", Tone::Quiet, Marks::Level(0.0))];
-        layers.push(layer(
+        let mut layers = vec![Layer::new("", Tone::Quiet, Marks::Level(0.0))];
+        layers.push(Layer::new(
             before,
             Tone::Contrast,
             points(&diagnosis.fit.residuals),
         ));
-        layers.extend(adopted.map(|one| layer(after, Tone::Main, points(&one.fit.residuals))));
+        layers.extend(adopted.map(|one| Layer::new(after, Tone::Main, points(&one.fit.residuals))));
         Panel {
             title: match adopted {
                 Some(_) => l.pick("Residuals before and after", "加入效应前后的残差"),

@@ -33,24 +33,9 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let at =
         |places: &[&Alternative]| joined(places.iter().map(|one| names.plain(one.candidate)), l);
     match diagnosis.conclusion() {
-        Conclusion::Agreement if diagnosis.noise.is_estimated() && diagnosis.noise.wanders() => l
-            .pick(
-                "Nothing in the catalogue is seen beside noise that wanders from row to row. No noise is claimed that it could be held against: something left out that changes with time would look the same.",
-                "在逐行游走的噪声之外，未见目录中的任何影响。未声明噪声，无从比较：若遗漏了随时间变化的因素，看起来也会如此。",
-            )
-            .to_owned(),
-        Conclusion::Agreement if diagnosis.noise.is_estimated() => l
-            .pick(
-                "Model and recording agree: nothing is left out that this recording can show. No noise is claimed that its scatter could be held against.",
-                "模型与记录一致：记录未显示模型有遗漏。未声明噪声，故其分散大小无从比较。",
-            )
-            .to_owned(),
-        Conclusion::Agreement => l
-            .pick(
-                "Model and recording agree within what is claimed: nothing is left out that this recording can show.",
-                "模型与记录在所声明的范围内一致：记录未显示模型有遗漏。",
-            )
-            .to_owned(),
+        Conclusion::Agreement if diagnosis.noise.is_estimated() && diagnosis.noise.wanders() => say!("Nothing in the catalogue is seen beside noise that wanders from row to row. No noise is claimed that it could be held against: something left out that changes with time would look the same.").in_language(l),
+        Conclusion::Agreement if diagnosis.noise.is_estimated() => say!("Model and recording agree: nothing is left out that this recording can show. No noise is claimed that its scatter could be held against.").in_language(l),
+        Conclusion::Agreement => say!("Model and recording agree within what is claimed: nothing is left out that this recording can show.").in_language(l),
         Conclusion::Exact => say!("The model meets every reading exactly: nothing is left out, and there is no noise that it could be told from. Readings of an instrument scatter; were these computed?").in_language(l),
         Conclusion::Untested => {
             let (observations, unknowns) = (diagnosis.before.observations, diagnosis.unknowns.len());

@@ -13,12 +13,7 @@ pub(super) fn measure(measure: &Measure, l: Language) -> String {
     match measure {
         Measure::Own(name) => name.clone(),
         Measure::Again => l.pick("the same once more", "原样重复一次").to_owned(),
-        Measure::Reversed => l
-            .pick(
-                "the same once more, in reversed order",
-                "按相反顺序重复一次",
-            )
-            .to_owned(),
+        Measure::Reversed => say!("the same once more, in reversed order").in_language(l),
         Measure::Set {
             column,
             value,
@@ -106,14 +101,8 @@ pub(super) fn unsettled(case: &Case, found: &Unsettled, l: Language) -> String {
 /// Why a case could not be diagnosed.
 pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
     match failure {
-        Failure::Fit(NoFit::NoStart) => l.pick(
-            "the model has no finite value where the search for its parameters begins; state starts: [parameter] NAME = { start = … }".to_owned(),
-            "模型在搜索起点处没有有限值；请给出起始值：[parameter] 名称 = { start = … }".to_owned(),
-        ),
-        Failure::Fit(NoFit::NoMinimum) => l.pick(
-            "the search for the parameters found no minimum; state starts nearer to the truth: [parameter] NAME = { start = … }".to_owned(),
-            "未找到参数的极小值；请给出更接近的起始值：[parameter] 名称 = { start = … }".to_owned(),
-        ),
+        Failure::Fit(NoFit::NoStart) => say!("the model has no finite value where the search for its parameters begins; state starts: [parameter] NAME = {{ start = … }}").in_language(l),
+        Failure::Fit(NoFit::NoMinimum) => say!("the search for the parameters found no minimum; state starts nearer to the truth: [parameter] NAME = {{ start = … }}").in_language(l),
         Failure::Fit(NoFit::Undetermined(name)) => say!("the recording does not determine the parameter {name}: other parameters do the same to every row (`gumption calibrate` says which). Remove it, make it a [constant], or state what is known of it: value and u").in_language(l),
         Failure::Fit(NoFit::TooFew { observations, unknowns }) => say!("{observations} observations leave nothing to examine beside {unknowns} unknown parameters").in_language(l),
         Failure::Refused(Refusal::Dependent { parameter }) => {
@@ -130,7 +119,7 @@ pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
             let (needed, most) = (gib(*bytes), gib(*most));
             say!("Noise that is correlated between {rows} rows takes about {needed} GiB of memory, and at most {most} GiB are taken. Simulate a part of the recording, or state the noise without `walk` and `at_rest`.").in_language(l)
         }
-        Failure::Refused(Refusal::Cancelled) => l.pick("stopped".to_owned(), "已中断".to_owned()),
+        Failure::Refused(Refusal::Cancelled) => say!("stopped").in_language(l),
         Failure::Refused(Refusal::NoFreedom { rows, parameters }) => say!("{rows} rows leave no degree of freedom beside {parameters} parameters").in_language(l),
         Failure::Refused(Refusal::Variance { .. }) => say!("the noise has rows whose variance is not a positive number").in_language(l),
         Failure::Refused(Refusal::NotPositive) => say!("the covariance matrix of the noise is not positive definite").in_language(l),

@@ -23,45 +23,27 @@ pub(super) fn plots(report: &Report<'_>) -> Vec<Plot> {
         .label
         .map(|label| format!("_{label}"))
         .unwrap_or_default();
-    let plain = |text: &str| -> String {
-        let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
-        text.chars().map(plain).collect()
-    };
     let results = &report.evaluation.results;
     for (m, result) in results.iter().enumerate().take(MOST_MEASURANDS) {
-        let name = plain(&format!("{}{row}", report.measurand(m).0));
+        let name = format!("{}{row}", report.measurand(m).0);
         if result.gum.u > 0.0 && result.gum.u.is_finite() && largest(&result.gum).len() > 1 {
-            plots.push(Plot {
-                id: format!("budget_{name}"),
-                panels: vec![contributions(report, m), waterfall(report, m)],
-            });
+            let panels = vec![contributions(report, m), waterfall(report, m)];
+            plots.push(Plot::new(&format!("budget_{name}"), panels));
         }
         if let Some(found) = &result.monte_carlo
             && found.histogram.counts.iter().any(|count| *count > 0)
         {
-            plots.push(Plot {
-                id: format!("distribution_{name}"),
-                panels: vec![distribution(report, m, found)],
-            });
+            let panels = vec![distribution(report, m, found)];
+            plots.push(Plot::new(&format!("distribution_{name}"), panels));
         }
     }
     for fit in &report.budget.fits {
         if fit.columns.len() == 2 {
-            plots.push(Plot {
-                id: plain(&format!("fit_{}{row}", fit.name)),
-                panels: curve(report, fit),
-            });
+            let id = format!("fit_{}{row}", fit.name);
+            plots.push(Plot::new(&id, curve(report, fit)));
         }
     }
     plots
-}
-
-pub(super) fn layer(name: impl Into<String>, tone: Tone, marks: Marks) -> Layer {
-    Layer {
-        name: name.into(),
-        tone,
-        marks,
-    }
 }
 
 /// Indices of the inputs that contribute most, the largest first.
@@ -98,7 +80,7 @@ fn contributions(report: &Report<'_>, m: usize) -> Panel {
         title: say!("Contributions to u({name})").in_language(l),
         x: Axis::linear("|c·u|", symbol(unit)),
         y: Axis::linear("", ""),
-        layers: vec![layer("|c·u|", Tone::Main, Marks::Bars(bars))],
+        layers: vec![Layer::new("|c·u|", Tone::Main, Marks::Bars(bars))],
     }
 }
 
@@ -145,7 +127,7 @@ fn waterfall(report: &Report<'_>, m: usize) -> Panel {
         title,
         x: Axis::linear(l.pick("part of u²", "占 u² 之比"), "%"),
         y: Axis::linear("", ""),
-        layers: vec![layer("", Tone::Main, Marks::Bars(bars))],
+        layers: vec![Layer::new("", Tone::Main, Marks::Bars(bars))],
     }
 }
 
@@ -165,7 +147,7 @@ fn distribution(report: &Report<'_>, m: usize, found: &MonteCarlo) -> Panel {
         steps.push([left + histogram.width, 0.0, density]);
     }
     let trials = l.pick("Monte Carlo", "蒙特卡洛法");
-    let mut layers = vec![layer(trials, Tone::Main, Marks::Band(steps))];
+    let mut layers = vec![Layer::new(trials, Tone::Main, Marks::Band(steps))];
     if gum.u > 0.0 && gum.u.is_finite() {
         let (low, dof) = (histogram.start, gum.freedom.value());
         let width = histogram.width * histogram.counts.len() as f64;
@@ -174,14 +156,18 @@ fn distribution(report: &Report<'_>, m: usize, found: &MonteCarlo) -> Panel {
             [x, student_t_pdf((x - gum.estimate) / gum.u, dof) / gum.u]
         });
         let name = l.pick("GUM", "GUM 法");
-        layers.push(layer(name, Tone::Contrast, Marks::Line(curve.collect())));
+        layers.push(Layer::new(
+            name,
+            Tone::Contrast,
+            Marks::Line(curve.collect()),
+        ));
         let half = gum.coverage.half_width_for_p;
         for end in [gum.estimate - half, gum.estimate + half] {
-            layers.push(layer("", Tone::Contrast, Marks::Upright(end)));
+            layers.push(Layer::new("", Tone::Contrast, Marks::Upright(end)));
         }
     }
     for end in found.symmetric {
-        layers.push(layer("", Tone::Main, Marks::Upright(end)));
+        layers.push(Layer::new("", Tone::Main, Marks::Upright(end)));
     }
     let [left, right] = [
         histogram.start,
@@ -196,7 +182,7 @@ fn distribution(report: &Report<'_>, m: usize, found: &MonteCarlo) -> Panel {
             let words = l.pick("limits of tolerance", "容许限");
             let first = layers.iter().all(|one| one.name != words);
             let name = if first { words } else { "" };
-            layers.push(layer(name, Tone::Quiet, Marks::Upright(limit)));
+            layers.push(Layer::new(name, Tone::Quiet, Marks::Upright(limit)));
         }
     }
     let per = match symbol(unit) {
@@ -226,13 +212,17 @@ fn curve(report: &Report<'_>, fit: &Fit) -> Vec<Panel> {
         let u = response.u.as_ref()?;
         let bars = predictor.values.iter().zip(middle).zip(u);
         let bars = bars.map(|((x, y), u)| [*x, y - u, y + u]);
-        Some(layer("±u", Tone::Quiet, Marks::Whiskers(bars.collect())))
+        Some(Layer::new(
+            "±u",
+            Tone::Quiet,
+            Marks::Whiskers(bars.collect()),
+        ))
     };
     let data = l.pick("data", "数据");
     let curve = l.pick("fitted curve", "拟合曲线");
     let mut above: Vec<Layer> = whiskers(&response.values).into_iter().collect();
-    above.push(layer(curve, Tone::Contrast, Marks::Line(fitted)));
-    above.push(layer(data, Tone::Main, Marks::data(observed)));
+    above.push(Layer::new(curve, Tone::Contrast, Marks::Line(fitted)));
+    above.push(Layer::new(data, Tone::Main, Marks::data(observed)));
     let mut below = Vec::new();
     if let Some(s) = fit.residual_sd.filter(|_| !fit.weighted) {
         let ends = predictor
@@ -242,12 +232,12 @@ fn curve(report: &Report<'_>, fit: &Fit) -> Vec<Panel> {
                 [a.min(*x), b.max(*x)]
             });
         let band = ends.map(|x| [x, -s, s]).to_vec();
-        below.push(layer("±s", Tone::Quiet, Marks::Band(band)));
+        below.push(Layer::new("±s", Tone::Quiet, Marks::Band(band)));
     }
     below.extend(whiskers(&fit.residuals));
-    below.push(layer("", Tone::Quiet, Marks::Level(0.0)));
+    below.push(Layer::new("", Tone::Quiet, Marks::Level(0.0)));
     let left = pairs(&predictor.values, &fit.residuals);
-    below.push(layer(
+    below.push(Layer::new(
         l.pick("residuals", "残差"),
         Tone::Main,
         Marks::data(left),
@@ -299,20 +289,17 @@ pub(super) fn series(rows: &[Report<'_>]) -> Vec<Plot> {
         let mut layers = Vec::new();
         if rows.iter().all(|row| limits_of(row) == limits) {
             let levels = limits.iter();
-            layers.extend(levels.map(|y| layer("", Tone::Contrast, Marks::Level(*y))));
+            layers.extend(levels.map(|y| Layer::new("", Tone::Contrast, Marks::Level(*y))));
         }
-        layers.push(layer("±U", Tone::Quiet, Marks::Whiskers(bars)));
-        layers.push(layer(name, Tone::Main, Marks::Points(values)));
-        let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
-        Plot {
-            id: format!("series_{}", name.chars().map(plain).collect::<String>()),
-            panels: vec![Panel {
-                title: say!("{name} with U").in_language(l),
-                x: Axis::linear(l.pick("row", "行"), ""),
-                y: Axis::linear(name, symbol(unit)),
-                layers,
-            }],
-        }
+        layers.push(Layer::new("±U", Tone::Quiet, Marks::Whiskers(bars)));
+        layers.push(Layer::new(name, Tone::Main, Marks::Points(values)));
+        let panel = Panel {
+            title: say!("{name} with U").in_language(l),
+            x: Axis::linear(l.pick("row", "行"), ""),
+            y: Axis::linear(name, symbol(unit)),
+            layers,
+        };
+        Plot::new(&format!("series_{name}"), vec![panel])
     };
     measurands.map(plot).collect()
 }

@@ -4,7 +4,6 @@ use gumption_fault::say;
 use gumption_format::document::{Axis, Layer, Marks, Panel, Plot, Tone};
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
-use super::plots::layer;
 use crate::number::probability;
 use crate::{Report, symbol};
 
@@ -23,14 +22,10 @@ pub(super) fn plots(report: &Report<'_>) -> Vec<Plot> {
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
     let plots = pairs.take(MOST_PAIRS).filter_map(|pair| {
         let panel = panel(report, pair)?;
-        let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
         let names = pair.map(|m| report.measurand(m).0).join("_");
         let row = report.label.unwrap_or_default();
         let id = format!("region_{names}_{row}");
-        Some(Plot {
-            id: id.trim_end_matches('_').chars().map(plain).collect(),
-            panels: vec![panel],
-        })
+        Some(Plot::new(id.trim_end_matches('_'), vec![panel]))
     });
     plots.collect()
 }
@@ -51,8 +46,12 @@ fn panel(report: &Report<'_>, [a, b]: [usize; 2]) -> Option<Panel> {
     ];
     let corners = corners.map(|[x, y]| [centre.x + x * half[0], centre.y + y * half[1]]);
     let together = l.pick("intervals that hold together", "同时成立的区间");
-    let mut layers: Vec<Layer> = vec![layer(together, Tone::Quiet, Marks::Line(corners.to_vec()))];
-    layers.push(layer(
+    let mut layers: Vec<Layer> = vec![Layer::new(
+        together,
+        Tone::Quiet,
+        Marks::Line(corners.to_vec()),
+    )];
+    layers.push(Layer::new(
         l.pick("GUM", "GUM 法"),
         Tone::Contrast,
         Marks::Line(by_gum),
@@ -65,10 +64,10 @@ fn panel(report: &Report<'_>, [a, b]: [usize; 2]) -> Option<Panel> {
     ) {
         let region = ellipse(Vector2::new(x, y), matrix, [a, b], regions.k_ellipsoid)?;
         let name = l.pick("Monte Carlo", "蒙特卡洛法");
-        layers.push(layer(name, Tone::Main, Marks::Line(region)));
+        layers.push(Layer::new(name, Tone::Main, Marks::Line(region)));
     }
     let estimate = vec![[centre.x, centre.y]];
-    layers.push(layer("", Tone::Quiet, Marks::Points(estimate)));
+    layers.push(Layer::new("", Tone::Quiet, Marks::Points(estimate)));
     let [(x, x_unit), (y, y_unit)] = [a, b].map(|m| report.measurand(m));
     let p = probability(report.coverage_probability());
     let title = match report.evaluation.results.len() {

@@ -300,13 +300,10 @@ impl Series<'_> {
 }
 
 fn mean_and_deviation(xs: &[f64]) -> [Cell; 2] {
-    let n = xs.len() as f64;
-    let mean = xs.iter().sum::<f64>() / n;
+    let (mean, s) = gumption_core::statistics::mean_and_deviation(xs);
     if xs.len() < 2 {
         return [exact(mean).into(), NONE.into()];
     }
-    let squares: f64 = xs.iter().map(|x| (x - mean).powi(2)).sum();
-    let s = (squares / (n - 1.0)).sqrt();
     // What rounding leaves of equal numbers is no deviation.
     if s <= 1e-14 * mean.abs() {
         return [aligned(mean, mean, 8).into(), "0".into()];

@@ -29,8 +29,8 @@ impl Shown<'_> {
         let whiskers = points.filter(|(_, (_, _, u))| u.is_finite());
         let whiskers = whiskers.map(|(at, (_, x, u))| [place(at), x - u, x + u]);
         let mut layers = vec![
-            layer("±U", Tone::Quiet, Marks::Whiskers(whiskers.collect())),
-            layer(
+            Layer::new("±U", Tone::Quiet, Marks::Whiskers(whiskers.collect())),
+            Layer::new(
                 l.pick("estimate", "估计值"),
                 Tone::Main,
                 Marks::Points(estimates.collect()),
@@ -53,7 +53,7 @@ impl Shown<'_> {
             };
             first = false;
             let line = ends.map(|x| [x, consistency.mean]);
-            layers.push(layer(name, Tone::Contrast, Marks::Line(line.to_vec())));
+            layers.push(Layer::new(name, Tone::Contrast, Marks::Line(line.to_vec())));
         }
         Panel {
             title: say!("Estimates of {}, group by group", one.name).in_language(l),
@@ -91,12 +91,12 @@ impl Shown<'_> {
             x: Axis::linear(one.name.as_str(), symbol(&one.unit)),
             y: Axis::linear("", ""),
             layers: vec![
-                layer(
+                Layer::new(
                     l.pick("smallest to largest", "最小值至最大值"),
                     Tone::Main,
                     observed,
                 ),
-                layer(l.pick("mean ± U", "平均值 ± U"), Tone::Quiet, claimed),
+                Layer::new(l.pick("mean ± U", "平均值 ± U"), Tone::Quiet, claimed),
             ],
         })
     }
@@ -132,12 +132,12 @@ impl Shown<'_> {
             x: Axis::linear("(x − X)/u(x − X)", ""),
             y: Axis::linear(l.pick("density", "概率密度"), ""),
             layers: vec![
-                layer(
+                Layer::new(
                     l.pick("rows (beyond ±5 at the ends)", "各行（超出 ±5 者计入两端）"),
                     Tone::Main,
                     Marks::Band(steps),
                 ),
-                layer(
+                Layer::new(
                     l.pick("standard normal", "标准正态分布"),
                     Tone::Contrast,
                     Marks::Line(curve.collect()),
@@ -170,7 +170,11 @@ impl Shown<'_> {
                 from: 0.0,
                 to: 100.0 * found.components[*at].dominates as f64 / found.values as f64,
             };
-            layer(name, tone, Marks::Bars(groups.iter().map(bar).collect()))
+            Layer::new(
+                name.as_str(),
+                tone,
+                Marks::Bars(groups.iter().map(bar).collect()),
+            )
         });
         let layers: Vec<Layer> = layers.collect();
         (!layers.is_empty()).then(|| {
@@ -198,7 +202,7 @@ impl Shown<'_> {
         let whiskers = first.points.iter().map(whiskers);
         let words = l.pick("±U of the first", "第一条的 ±U");
         let whiskers = Marks::Whiskers(whiskers.collect());
-        let mut layers = vec![layer(words, Tone::Quiet, whiskers)];
+        let mut layers = vec![Layer::new(words, Tone::Quiet, whiskers)];
         let mut told = [false; 2];
         for course in all {
             let line = course.points.iter().map(|point| [year(point[0]), point[1]]);
@@ -214,7 +218,7 @@ impl Shown<'_> {
             };
             let seen = std::mem::replace(&mut told[usize::from(course.is_named)], true);
             let name = if seen { "" } else { words };
-            layers.push(layer(name, tone, Marks::Line(line.collect())));
+            layers.push(Layer::new(name, tone, Marks::Line(line.collect())));
         }
         let panel = Panel {
             title: say!(
@@ -232,18 +236,5 @@ impl Shown<'_> {
 }
 
 fn plot(kind: &str, one: &Measurand, panel: Panel) -> Plot {
-    let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
-    let name: String = one.name.chars().map(plain).collect();
-    Plot {
-        id: format!("{kind}_{name}"),
-        panels: vec![panel],
-    }
-}
-
-fn layer(name: &str, tone: Tone, marks: Marks) -> Layer {
-    Layer {
-        name: name.to_owned(),
-        tone,
-        marks,
-    }
+    Plot::new(&format!("{kind}_{}", one.name), vec![panel])
 }

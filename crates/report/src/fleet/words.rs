@@ -1,6 +1,6 @@
 //! What is said of a fleet in sentences.
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use gumption_fleet::{Drift, GroupResult, Measurand, SIGNIFICANCE, Scatter};
 
 use super::Shown;
@@ -33,10 +33,7 @@ impl Shown<'_> {
         }
         let mut sentences = self.left_out(one);
         if tests == 0 {
-            sentences.push(l.pick(
-                "No group has two estimates with an uncertainty: of their scatter nothing can be said.",
-                "没有任何一组含两个以上带不确定度的估计值，无法判断分散性。",
-            ).to_owned());
+            sentences.push(say!("No group has two estimates with an uncertainty: of their scatter nothing can be said.").in_language(l));
             return sentences;
         }
         if !more.is_empty() {
@@ -48,10 +45,7 @@ impl Shown<'_> {
             sentences.push(say!("Less scatter than u claims ({groups} times as much): what all of them share, such as the error of one reference, is part of u and does not scatter; or u is too large.").in_language(l));
         }
         if more.is_empty() && less.is_empty() {
-            sentences.push(l.pick(
-                "The estimates scatter as their u lets expect. Where all share a reference, whose error is part of u but does not scatter, that may hide differences between the items.",
-                "估计值的分散性与 u 相符。若各器件共用同一标准器，其误差计入 u 但不引起分散，可能掩盖器件间的差异。",
-            ).to_owned());
+            sentences.push(say!("The estimates scatter as their u lets expect. Where all share a reference, whose error is part of u but does not scatter, that may hide differences between the items.").in_language(l));
         }
         sentences
     }
@@ -86,11 +80,11 @@ impl Shown<'_> {
                 false => format!("{} {birge}", self.group(*at)),
             }
         };
-        self.list(groups.len(), groups.iter().map(ratio))
+        self.list(groups.iter().map(ratio))
     }
 
     /// The first of some names.
-    fn list(self, count: usize, names: impl Iterator<Item = String>) -> String {
+    fn list(self, names: impl Iterator<Item = String>) -> String {
         let mut all: Vec<String> = Vec::new();
         for name in names {
             // A device may have several rows.
@@ -98,14 +92,7 @@ impl Shown<'_> {
                 all.push(name);
             }
         }
-        let count = count.min(all.len());
-        all.truncate(LISTED);
-        let names = all;
-        let names = names.join(self.l.list_comma());
-        match count > LISTED {
-            true => format!("{names} …"),
-            false => names,
-        }
+        Said::first(&all, LISTED).in_language(self.l)
     }
 
     pub fn agreement_words(self, one: &Measurand) -> String {
@@ -122,21 +109,14 @@ impl Shown<'_> {
             return say!("|E_n| > 1: {beyond} of {tested} rows, against {against}. The items differ by more than their uncertainties, so that none of them stands out, and none is named. E_n tells something against a reference value (`--reference`), or among items that should be alike (`--by`).").in_language(l);
         }
         let named = found.apart.iter().filter(|one| one.is_named());
-        let names = self.list(found.named, named.map(|one| one.device.clone()));
-        let all_explained = l.pick(
-            "Over all that was tested, chance explains each of them.",
-            "就全部检验而言，各偏差均可由偶然性解释。",
-        );
+        let names = self.list(named.map(|one| one.device.clone()));
         let named = match found.named {
-            0 => all_explained.to_owned(),
+            0 => say!("Over all that was tested, chance explains each of them.").in_language(l),
             count => self.unexplained(count, "行", &names),
         };
         let shared = match &one.reference {
-            Some(_) => "",
-            None => l.pick(
-                " What all rows share, such as the error of one reference, is in both sides and cancels, though U has it: E_n is then smaller than the difference deserves.",
-                "各行共有的部分（如同一标准器的误差）在差值中抵消，但仍计入 U：此时 E_n 偏小。",
-            ),
+            Some(_) => String::new(),
+            None => say!(" What all rows share, such as the error of one reference, is in both sides and cancels, though U has it: E_n is then smaller than the difference deserves.").in_language(l),
         };
         format!("{all}{}{named}{shared}", l.pick(" ", ""))
     }
@@ -157,10 +137,7 @@ impl Shown<'_> {
     pub fn drift_words(self, drift: &Drift) -> String {
         let l = self.l;
         if drift.devices == 0 {
-            return l.pick(
-                "No device has calibrations at two dates in one group: of a drift nothing can be said.",
-                "没有器件在同一组内有两个日期的校准，无法判断漂移。",
-            ).to_owned();
+            return say!("No device has calibrations at two dates in one group: of a drift nothing can be said.").in_language(l);
         }
         let [devices, beyond] = [drift.devices, drift.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(drift.expected);
@@ -174,19 +151,12 @@ impl Shown<'_> {
         };
         let all = all.in_language(l);
         let named = drift.apart.iter().filter(|one| one.is_named());
-        let names = self.list(drift.named, named.map(|one| one.device.clone()));
-        let all_explained = l.pick(
-            "Over all devices, chance explains each of them.",
-            "就全部器件而言，均可由偶然性解释。",
-        );
+        let names = self.list(named.map(|one| one.device.clone()));
         let named = match drift.named {
-            0 => all_explained.to_owned(),
+            0 => say!("Over all devices, chance explains each of them.").in_language(l),
             count => self.unexplained(count, "个", &names),
         };
-        let shared = l.pick(
-            "Where all calibrations used the same reference, its error is in both sides and cancels: U is then larger than a difference needs, and a drift that is seen is seen all the more; one that is not seen may be there. Where the reference was changed or calibrated anew in between, it does not cancel.",
-            "若各次校准使用同一标准器，其误差在差值中抵消：此时 U 大于差值所需，检出的漂移更为可信，未检出的漂移仍可能存在。若其间更换或重新校准了标准器，则不抵消。",
-        );
+        let shared = say!("Where all calibrations used the same reference, its error is in both sides and cancels: U is then larger than a difference needs, and a drift that is seen is seen all the more; one that is not seen may be there. Where the reference was changed or calibrated anew in between, it does not cancel.").in_language(l);
         let space = l.pick(" ", "");
         format!("{all}{space}{named}{space}{shared}")
     }

@@ -20,9 +20,9 @@ record! {
         /// Seeds of the random numbers that were used.
         seeds: Vec<u64>,
         /// What the verification shows and what it does not.
-        purpose: Vec<&'a str>,
+        purpose: Vec<String>,
         /// How figures were compared.
-        method: Vec<&'a str>,
+        method: Vec<String>,
         /// Numbers of examples and figures.
         counts: CountsJson,
         /// The result in words: `N passed, M failed`.

@@ -65,17 +65,9 @@ fn layers(
             .enumerate()
             .filter(|(_, one)| one.kind == *kind);
         let points: Vec<[f64; 2]> = own.map(|(at, one)| place(at, one)).collect();
-        (!points.is_empty()).then(|| layer(name, tone, Marks::data(points)))
+        (!points.is_empty()).then(|| Layer::new(name, tone, Marks::data(points)))
     });
     layers.flatten().collect()
-}
-
-fn layer(name: &str, tone: Tone, marks: Marks) -> Layer {
-    Layer {
-        name: name.to_owned(),
-        tone,
-        marks,
-    }
 }
 
 /// Magnitudes, since figures of all units and sizes stand beside each other.
@@ -87,7 +79,7 @@ fn against(figures: &[Figure], l: Language) -> Panel {
     });
     let name = l.pick("equal", "相等");
     let equal = Marks::Line(vec![[low, low], [high, high]]);
-    let mut all = vec![layer(name, Tone::Quiet, equal)];
+    let mut all = vec![Layer::new(name, Tone::Quiet, equal)];
     let kinds = [Kind::Shown, Kind::Agrees, Kind::Differs];
     all.extend(layers(&kinds, figures, l, |_, one| {
         [one.published.abs(), one.obtained.abs()]
@@ -111,8 +103,8 @@ fn deviations(figures: &[Figure], l: Language) -> Panel {
     };
     let name = l.pick("tolerance", "允差");
     let mut all = vec![
-        layer(name, Tone::Quiet, Marks::Level(1.0)),
-        layer("", Tone::Quiet, Marks::Level(-1.0)),
+        Layer::new(name, Tone::Quiet, Marks::Level(1.0)),
+        Layer::new("", Tone::Quiet, Marks::Level(-1.0)),
     ];
     all.extend(layers(kinds, figures, l, |at, one| {
         [(at + 1) as f64, one.deviation]

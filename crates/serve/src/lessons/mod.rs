@@ -4,7 +4,7 @@ mod models;
 mod readings;
 
 use gumption_fault::language::Language;
-use gumption_format::document::{Block, Document, Layer, Marks, Panel, Plot, Table, Tone};
+use gumption_format::document::{Block, Document, Marks, Panel, Plot, Table};
 use gumption_format::files::Files;
 use gumption_format::machine::{Machine, Number, record};
 use gumption_gum::budget::{self, MonteCarloSettings};
@@ -263,20 +263,9 @@ fn ends(samples: &[f64]) -> [f64; 2] {
     })
 }
 
-/// Mean and standard deviation.
-fn moments(samples: &[f64]) -> [f64; 2] {
-    let centre = mean(samples.iter().copied());
-    let squares: f64 = samples.iter().map(|x| (x - centre).powi(2)).sum();
-    [centre, (squares / (samples.len() as f64 - 1.0)).sqrt()]
-}
-
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
     sum / count
-}
-
-fn layer(name: String, tone: Tone, marks: Marks) -> Layer {
-    Layer { name, tone, marks }
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! Models: where the trials lead, where worst case and first order part from them.
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
+use gumption_core::statistics::mean_and_deviation;
 use gumption_fault::say;
-use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
+use gumption_format::document::{Axis, ColumnKind, Layer, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 use gumption_report::grouped;
 
-use super::{Class, Count, Drawn, P, SEEN, curve, ends, layer, moments, outline};
+use super::{Class, Count, Drawn, P, SEEN, curve, ends, outline};
 
 /// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
 const STEP: f64 = 1.359_356_39;
@@ -43,7 +44,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
     ]);
     let beside = (drawn.len() < all.len()).then_some(all.as_slice());
     for samples in [Some(drawn), beside].into_iter().flatten() {
-        let ([centre, s], [low, high]) = (moments(samples), ends(samples));
+        let ((centre, s), [low, high]) = (mean_and_deviation(samples), ends(samples));
         table.push(vec![
             grouped(samples.len() as u64).into(),
             format!("{centre:.3}").into(),
@@ -52,7 +53,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
         ]);
     }
     let rug = drawn.iter().take(10 * SEEN).map(|x| [*x, 0.0]);
-    let [centre, s] = moments(drawn);
+    let (centre, s) = mean_and_deviation(drawn);
     Drawn {
         words: say!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: u is known to one part in √(2 M) after M trials.").in_language(class.language),
         table,
@@ -61,9 +62,9 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
             x: Axis::linear("y", ""),
             y: Axis::linear(class.pick("density", "概率密度"), ""),
             layers: vec![
-                layer(class.pick("trials", "试验"), Tone::Quiet, Marks::Points(rug.collect())),
-                layer(class.pick("histogram", "直方图"), Tone::Main, outline(drawn, reach)),
-                layer(
+                Layer::new(class.pick("trials", "试验"), Tone::Quiet, Marks::Points(rug.collect())),
+                Layer::new(class.pick("histogram", "直方图"), Tone::Main, outline(drawn, reach)),
+                Layer::new(
                     class.pick("GUM", "GUM 法"),
                     Tone::Contrast,
                     curve(|x| normal_pdf((x - 1.0) / u) / u, reach),
@@ -131,9 +132,9 @@ pub(super) fn resistors(class: &Class<'_>) -> Drawn {
             x: Axis::linear("n", ""),
             y: Axis::linear(class.pick("half-width", "半宽"), "Ω"),
             layers: vec![
-                layer(class.pick("worst case", "最坏情况"), Tone::Contrast, Marks::Line(worst)),
-                layer(class.pick("U by the GUM", "GUM 法的 U"), Tone::Main, Marks::Line(gum)),
-                layer(class.pick("95 % drawn", "抽样的 95 %"), Tone::Main, Marks::Points(seen)),
+                Layer::new(class.pick("worst case", "最坏情况"), Tone::Contrast, Marks::Line(worst)),
+                Layer::new(class.pick("U by the GUM", "GUM 法的 U"), Tone::Main, Marks::Line(gum)),
+                Layer::new(class.pick("95 % drawn", "抽样的 95 %"), Tone::Main, Marks::Points(seen)),
             ],
         },
         figures,
@@ -149,7 +150,7 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
     ));
     let drawn = samples.into_iter().next().unwrap_or_default();
     let [first, second] = [2.0 * a.abs(), (4.0 * a * a + 2.0).sqrt()];
-    let ([centre, s], [low, high]) = (moments(&drawn), ends(&drawn));
+    let ((centre, s), [low, high]) = (mean_and_deviation(&drawn), ends(&drawn));
     let k = normal_two_sided_quantile(P);
     let mut table = Table::new([
         ("", ColumnKind::Names),
@@ -180,14 +181,14 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
     }
     row(class.pick("drawn", "抽样"), centre, s, [low, high]);
     let reach = [-4.0, (a.abs() + 3.0).powi(2)];
-    let mut layers = vec![layer(
+    let mut layers = vec![Layer::new(
         class.pick("drawn", "抽样"),
         Tone::Main,
         outline(&drawn, reach),
     )];
     if first > 0.0 {
         let gum = curve(|x| normal_pdf((x - a * a) / first) / first, reach);
-        layers.push(layer(
+        layers.push(Layer::new(
             class.pick("GUM, first order", "GUM 法，一阶"),
             Tone::Contrast,
             gum,
@@ -259,7 +260,7 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
         ),
     ];
     for (what, first, drawn) in rows {
-        let [centre, s] = moments(drawn);
+        let (centre, s) = mean_and_deviation(drawn);
         // Without a sign of nothing.
         let millionths = |x: f64| format!("{:.1}", (1e7 * x).round() / 10.0 + 0.0);
         table.push(vec![
@@ -281,14 +282,14 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
             x: Axis::linear(class.pick("level error", "水平误差"), "mrad"),
             y: Axis::linear(class.pick("error of the scale factor", "标度因数误差"), "10⁻⁶"),
             layers: vec![
-                layer(class.pick("first order", "一阶"), Tone::Contrast, Marks::Level(0.0)),
-                layer(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(points)),
+                Layer::new(class.pick("first order", "一阶"), Tone::Contrast, Marks::Level(0.0)),
+                Layer::new(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(points)),
             ],
         },
         figures: vec![
-            Number(moments(&one)[1]),
-            Number(moments(&four)[1]),
-            Number(moments(&error)[0]),
+            Number(mean_and_deviation(&one).1),
+            Number(mean_and_deviation(&four).1),
+            Number(mean_and_deviation(&error).0),
         ],
     }
 }

@@ -2,10 +2,10 @@
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile, student_t_upper_quantile};
 use gumption_fault::say;
-use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
+use gumption_format::document::{Axis, ColumnKind, Layer, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 
-use super::{Class, Drawn, P, SEEN, curve, ends, layer, mean, outline, pairs};
+use super::{Class, Drawn, P, SEEN, curve, ends, mean, outline, pairs};
 
 pub(super) fn divisor(class: &Class<'_>) -> Drawn {
     let mut table = Table::new([
@@ -39,9 +39,9 @@ pub(super) fn divisor(class: &Class<'_>) -> Drawn {
             x: Axis::linear("n", ""),
             y: Axis::linear("s²", ""),
             layers: vec![
-                layer(truth, Tone::Quiet, Marks::Level(1.0)),
-                layer("n".into(), Tone::Contrast, Marks::Points(by_n)),
-                layer("n − 1".into(), Tone::Main, Marks::Points(by_less)),
+                Layer::new(truth, Tone::Quiet, Marks::Level(1.0)),
+                Layer::new("n", Tone::Contrast, Marks::Points(by_n)),
+                Layer::new("n − 1", Tone::Main, Marks::Points(by_less)),
             ],
         },
         figures,
@@ -120,9 +120,9 @@ pub(super) fn coverage(class: &Class<'_>) -> Drawn {
             x: Axis::linear(class.pick("experiment", "试验序号"), ""),
             y: Axis::linear("x", ""),
             layers: vec![
-                layer(class.pick("true value", "真值"), Tone::Quiet, Marks::Level(0.0)),
-                layer(class.pick("covers it", "包含真值"), Tone::Main, Marks::Whiskers(hits)),
-                layer(class.pick("misses it", "未包含真值"), Tone::Contrast, Marks::Whiskers(misses)),
+                Layer::new(class.pick("true value", "真值"), Tone::Quiet, Marks::Level(0.0)),
+                Layer::new(class.pick("covers it", "包含真值"), Tone::Main, Marks::Whiskers(hits)),
+                Layer::new(class.pick("misses it", "未包含真值"), Tone::Contrast, Marks::Whiskers(misses)),
             ],
         },
         figures,
@@ -166,8 +166,8 @@ pub(super) fn rectangles(class: &Class<'_>) -> Drawn {
             x: Axis::linear("y", ""),
             y: Axis::linear(class.pick("density", "概率密度"), ""),
             layers: vec![
-                layer(class.pick("drawn", "抽样"), Tone::Main, outline(&sums, reach)),
-                layer(class.pick("normal, same u", "正态，u 相同"), Tone::Contrast, curve(|x| normal_pdf(x / u) / u, reach)),
+                Layer::new(class.pick("drawn", "抽样"), Tone::Main, outline(&sums, reach)),
+                Layer::new(class.pick("normal, same u", "正态，u 相同"), Tone::Contrast, curve(|x| normal_pdf(x / u) / u, reach)),
             ],
         },
         figures: vec![Number(u), Number(k)],
@@ -223,7 +223,7 @@ pub(super) fn shared(class: &Class<'_>) -> Drawn {
             title: class.pick("Errors of both weights", "两个砝码的误差"),
             x: Axis::linear("a", "mg"),
             y: Axis::linear("b", "mg"),
-            layers: vec![layer(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(seen))],
+            layers: vec![Layer::new(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(seen))],
         },
         figures,
     }

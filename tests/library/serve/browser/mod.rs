@@ -10,7 +10,6 @@ mod what_if;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
-use std::path::PathBuf;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
@@ -18,12 +17,13 @@ use serde_json::{Value, json};
 
 use super::{BUDGET, Served};
 use crate::common::cases::folder;
-use crate::common::root;
+use crate::common::{Folder, root};
 
 /// A browser with one page.
 struct Browser {
     program: Child,
-    folder: PathBuf,
+    /// Where its pipes and its profile are.
+    _folder: Folder,
     to: File,
     from: BufReader<File>,
     session: Option<String>,
@@ -57,7 +57,7 @@ impl Browser {
             --window-size=1400,900 about:blank 3<\"$1/in\" 4>\"$1/out\" 2>/dev/null";
         let program = Command::new("sh")
             .args(["-c", command, browser])
-            .arg(&folder)
+            .arg(folder.as_os_str())
             .arg(language)
             .spawn()
             .expect("a shell");
@@ -65,7 +65,7 @@ impl Browser {
         let from = BufReader::new(File::open(&pipes[1]).expect("a pipe"));
         let mut browser = Browser {
             program,
-            folder,
+            _folder: folder,
             to,
             from,
             session: None,
@@ -210,7 +210,6 @@ impl Drop for Browser {
     fn drop(&mut self) {
         let _ = self.program.kill();
         let _ = self.program.wait();
-        let _ = std::fs::remove_dir_all(&self.folder);
     }
 }
 

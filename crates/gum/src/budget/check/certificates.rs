@@ -12,7 +12,7 @@ use crate::budget::{Group, Owner};
 use gumption_core::distribution::stating::Width;
 use gumption_core::distribution::{Entry, Normal};
 use gumption_core::special::student_t_two_sided_quantile;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -114,9 +114,8 @@ impl Checker<'_> {
             }
             /// More names say nothing more.
             const MOST: usize = 4;
-            let more = if owners.len() > MOST { " …" } else { "" };
-            let names = owners[..owners.len().min(MOST)].join(", ");
-            self.remark(say!("{names}{more} have the certificate {number}, and are taken as uncorrelated. What they owe to one calibration is common to them: state it as a [source.NAME], or their correlation as [[correlation]] (r = 0 if there is none)."));
+            let names = Said::first(&owners, MOST);
+            self.remark(say!("{names} have the certificate {number}, and are taken as uncorrelated. What they owe to one calibration is common to them: state it as a [source.NAME], or their correlation as [[correlation]] (r = 0 if there is none)."));
         }
     }
 

@@ -420,11 +420,6 @@ impl What {
 }
 
 /// At most a dozen names.
-fn shortened(names: &[String]) -> String {
-    const MOST: usize = 12;
-    let shown = names[..names.len().min(MOST)].join(", ");
-    match names.len() > MOST {
-        true => format!("{shown} …"),
-        false => shown,
-    }
+fn shortened(names: &[String]) -> Said {
+    Said::first(names, 12)
 }

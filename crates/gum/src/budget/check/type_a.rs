@@ -14,7 +14,7 @@ use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
 use gumption_core::quantity::{Decimal, Unit, to_digits};
-use gumption_core::statistics::{Dd, OutlierTest, Serial, Series, pooled};
+use gumption_core::statistics::{Dd, OutlierTest, Serial, Series, pooled, range};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
@@ -38,15 +38,14 @@ const SIGNIFICANCE: f64 = 0.05;
 
 /// What readings say of themselves.
 fn statistics(series: &Series, readings: &[Dd], effective: Option<f64>) -> Statistics {
-    let values = || readings.iter().map(|reading| reading.value());
+    let (min, max) = range(readings.iter().map(|reading| reading.value()));
     Statistics {
         n: series.count(),
         mean: series.mean(),
         s: series.standard_deviation(),
-        min: values().fold(f64::INFINITY, f64::min),
-        max: values().fold(f64::NEG_INFINITY, f64::max),
+        min,
+        max,
         lag1: series.autocorrelation(1),
-        lag_limit: series.serial_limit(),
         effective,
     }
 }
@@ -502,8 +501,8 @@ pub(super) fn two_turns(plain: &[f64], unit: &Unit) -> Option<[f64; 3]> {
     let turn = unit.full_turn()?;
     let first = *plain.first()?;
     let spread = |angles: &[f64]| {
-        let low = angles.iter().copied().fold(f64::INFINITY, f64::min);
-        angles.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
+        let (low, high) = range(angles.iter().copied());
+        high - low
     };
     let beside = |angle: f64| angle - turn * ((angle - first) / turn).round();
     let unwrapped: Vec<f64> = plain.iter().map(|angle| beside(*angle)).collect();

@@ -1,6 +1,6 @@
 //! Which result of a certificate is meant.
 
-use gumption_fault::{Fault, nearest, say};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
 
 use super::certificate::{DigitalCertificate, Quantity};
@@ -115,7 +115,7 @@ fn point(
 }
 
 /// The first names.
-fn shown(names: &[String]) -> String {
+fn shown(names: &[String]) -> Said {
     /// More are read in the file itself.
     const MOST: usize = 8;
     let mut shown: Vec<String> = Vec::new();
@@ -125,7 +125,5 @@ fn shown(names: &[String]) -> String {
             shown.push(name);
         }
     }
-    let more = if shown.len() > MOST { " …" } else { "" };
-    shown.truncate(MOST);
-    shown.join(", ") + more
+    Said::first(&shown, MOST)
 }

@@ -11,6 +11,7 @@ use crate::propagate::result::{
 };
 use gumption_core::special::roots::try_last;
 use gumption_core::special::{normal_cdf, normal_pdf, normal_quantile, normal_upper_quantile};
+use gumption_core::statistics::mean_and_deviation;
 
 /// Characteristic limits of every measurand that a budget asks for, in its order.
 pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionResult> {
@@ -189,14 +190,12 @@ fn best_of_trials(
     if values.len() < FEWEST {
         return None;
     }
-    let n = values.len() as f64;
-    let value = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|v| (v - value) * (v - value)).sum();
+    let (value, u) = mean_and_deviation(&values);
     let ranks = Ranks::new(values.len(), detection.coverage_probability);
     let ordered = Ordered::sorted(values);
     Some(BestEstimate {
         value,
-        u: libm::sqrt(squares / (n - 1.0)),
+        u,
         symmetric: ordered.symmetric(ranks),
         shortest: ordered.shortest(ranks),
         coverage_probability: detection.coverage_probability,

@@ -17,6 +17,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use gumption_core::quantity::{UnitTable, show};
+use gumption_core::statistics::range;
 use gumption_fault::language::Language;
 use gumption_fault::{Rejection, Said, say};
 use gumption_format::csv::{Data, Recording};
@@ -172,14 +173,12 @@ fn within(Guess { column, role, .. }: &Guess<'_>) -> Said {
             say!("{count} labels: {shown}")
         }
         Data::Numbers(numbers) => {
-            let known = || numbers.iter().filter(|x| x.is_finite());
-            let low = known().copied().fold(f64::INFINITY, f64::min);
-            let high = known().copied().fold(f64::NEG_INFINITY, f64::max);
+            let (low, high) = range(numbers.iter().copied().filter(|x| x.is_finite()));
             let (first, last) = (show(low), show(high));
-            let range = match known().next() {
-                None => return say!("no number"),
-                Some(_) if low < high => say!("{first} to {last}"),
-                Some(_) => say!("{first} throughout"),
+            let range = match low < high {
+                _ if low > high => return say!("no number"),
+                true => say!("{first} to {last}"),
+                false => say!("{first} throughout"),
             };
             match &column.unit {
                 Some(unit) => {

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
 use gumption_core::quantity::UnitTable;
+use gumption_core::statistics::range;
 use gumption_format::csv::{self, Column, Data, Labels};
 
 use crate::experiment::entries::RoleWord;
@@ -136,9 +137,8 @@ fn in_turns(column: &Column) -> Option<Vec<f64>> {
     };
     let factor = TAU / column.unit.as_ref()?.full_turn()?;
     let angles: Vec<f64> = numbers.iter().map(|x| factor * x).collect();
-    let known = || angles.iter().copied().filter(|x| x.is_finite());
-    let span = known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
-    (span > PI).then_some(angles)
+    let (least, most) = range(angles.iter().copied().filter(|x| x.is_finite()));
+    (most - least > PI).then_some(angles)
 }
 
 /// R² of a straight line through the rows in which both are numbers.

@@ -204,10 +204,9 @@ fn uncertainties_stand_in_a_csv_file() {
             .replace("\"m\", COMPONENTS", "\"m\", U")
             .replace('U', u)
     };
-    let folder = std::env::temp_dir().join(format!("gumption-fit-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder for the test");
-    std::fs::write(folder.join("u.csv"), "u,short\n0.1,1\n0.2,1\n0.3,\n").expect("a file");
-    let read = |u: &str| read(&text(u), "test.toml", &folder);
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("u.csv"), "u,short\n0.1,1\n0.2,1\n0.3,\n").expect("a file");
+    let read = |u: &str| read(&text(u), "test.toml", folder.path());
     let from_file = read(r#"u = { file = "u.csv", column = "u" }"#).expect("a budget");
     let listed = centred("u = [0.1, 0.2, 0.3]");
     let of = |budget: &Budget| budget.fits[0].covariance.clone();
@@ -229,7 +228,6 @@ fn uncertainties_stand_in_a_csv_file() {
     );
     // One in the table, and where the budget asks for it.
     assert_eq!(message.matches("error[").count(), 2, "{message}");
-    std::fs::remove_dir_all(&folder).expect("the folder of the test");
 }
 
 /// A fit of one predictor in the file's words.

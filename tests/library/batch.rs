@@ -794,3 +794,22 @@ fn contributions_stand_below_their_components() {
         }
     }
 }
+
+/// A fixed k makes no u of four readings known for certain: ν stands in the table for whoever weighs u or forms another k.
+#[test]
+fn degrees_of_freedom_are_told_under_every_profile() {
+    let table =
+        "label,x.readings\na,\"[9.96, 9.93, 9.99, 10.02]\"\nb,\"[10.06, 10.01, 9.97, 9.96]\"\n";
+    for profile in ["GUM", "JJF", "JJF-up", "NIST"] {
+        let budget = format!(
+            "profile = \"{profile}\"\n[measurand.y]\nmodel = \"x\"\n[input.x]\nreadings = [1, 2, 3, 4]\n"
+        );
+        let (text, count) = run(&budget, table, &plan(None, 1)).expect("a batch");
+        assert_eq!((count.rows, count.failed), (2, 0), "{text}");
+        let found = cells(&text);
+        for row in &found.1 {
+            let nu: f64 = cell(&found, row, "nu(y)").parse().expect("a number");
+            assert_eq!(nu, 3.0, "{profile}: {text}");
+        }
+    }
+}

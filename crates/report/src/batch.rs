@@ -153,9 +153,8 @@ impl Columns {
         let numbers = measurands.clone().flat_map(|one| {
             let of = figures.columns(one);
             let [lower, upper] = of.ends.map(Some);
-            let found = [of.estimate, of.u].map(Some);
-            let wide = [Some(of.k), Some(of.expanded), lower, upper];
-            found.into_iter().chain([of.dof]).chain(wide)
+            let found = [of.estimate, of.u, of.dof, of.k, of.expanded].map(Some);
+            found.into_iter().chain([lower, upper])
         });
         let mut columns: Vec<Given<'_>> = numbers.map(Given::Numbers).collect();
         if self.shares {

@@ -279,7 +279,7 @@ impl<'a> Heads<'a> {
         let deviation = unit.difference();
         let number = |letter: &str| {
             let at = self.optional(&format!("{letter}({name})"));
-            at.map(|at| self.number(at, &deviation)).transpose()
+            at.map(|at| self.spread(at, &deviation)).transpose()
         };
         let plain = |letter: &str| self.optional(&format!("{letter}({name})"));
         Ok(StatedColumns {
@@ -304,8 +304,23 @@ impl<'a> Heads<'a> {
         })
     }
 
-    /// A column of numbers that are needed in this unit.
+    /// A column of values that are needed in this unit.
     fn number(&self, at: usize, unit: &Unit) -> Result<NumberColumn, Box<Fault>> {
+        self.converted(at, unit, Unit::clone)
+    }
+
+    /// A column of uncertainties that are needed in this unit: one that is headed °C is a difference, as on every certificate of
+    /// a thermometer, and no temperature.
+    fn spread(&self, at: usize, unit: &Unit) -> Result<NumberColumn, Box<Fault>> {
+        self.converted(at, unit, Unit::difference)
+    }
+
+    fn converted(
+        &self,
+        at: usize,
+        unit: &Unit,
+        meant: impl Fn(&Unit) -> Unit,
+    ) -> Result<NumberColumn, Box<Fault>> {
         let head = &self.all[at];
         let (text, symbol) = (head.text, &unit.symbol);
         let fault = |code, message| {
@@ -313,7 +328,7 @@ impl<'a> Heads<'a> {
             Box::new(Fault::new(code, head.place.clone(), message).help(help))
         };
         let found = match self.unit(at)? {
-            Some(found) => found,
+            Some(found) => meant(&found),
             None if unit.is_one() => Unit::one(),
             None => return Err(fault(NO_UNIT, say!("\"{text}\" has no unit"))),
         };
@@ -361,7 +376,7 @@ impl<'a> Heads<'a> {
         stated.value = self.number(at, &unit)?;
         let spreads = [&mut stated.u, &mut stated.expanded];
         for column in spreads.into_iter().flatten() {
-            *column = self.number(column.at, &unit.difference())?;
+            *column = self.spread(column.at, &unit.difference())?;
         }
         stated.unit = unit;
         let is_known = stated.expanded.is_some() || (stated.u.is_some() && stated.k.is_some());

@@ -635,3 +635,34 @@ fn what_a_batch_refuses_is_refused() {
     let said = refusal(&format!("{rows}mean;1,1;0,1;2\n"), &Wanted::default());
     assert!(said.contains("means of those"), "{said}");
 }
+
+/// Certificates of thermometers state U in °C: a difference, of values and of references alike.
+#[test]
+fn an_uncertainty_in_degrees_is_a_difference() {
+    let units = [
+        ["°C", "K", "0.02"],
+        ["°C", "°C", "0.02"],
+        ["℃", "℃", "0.02"],
+        ["K", "°C", "0.02"],
+        ["°C", "℉", "0.036"],
+    ];
+    for [unit, of_u, expanded] in units {
+        let row = |(name, t): (&str, &str)| format!("{name},{t},{expanded},2,20,{expanded}\n");
+        let rows = [("a", "20.01"), ("b", "22.02"), ("c", "20.00"), ("d", "20")].map(row);
+        let heads = format!("label,t [{unit}],U(t) [{of_u}],k(t)");
+        let alone = format!("{heads},kept,kept too\n{}", rows.concat());
+        let found_alone = found(&alone, &Wanted::default());
+        let t = &found_alone.measurands[0];
+        close(t.groups[0].u, 0.01, 1e-9);
+        assert_eq!(t.agreement.named, 1, "{unit}, {of_u}");
+        let referred = format!("{heads},X [{unit}],U(X) [{of_u}]\n{}", rows.concat());
+        let wanted = Wanted {
+            references: vec!["X".to_owned()],
+            ..Wanted::default()
+        };
+        let found_referred = found(&referred, &wanted);
+        let apart = &found_referred.measurands[0].agreement.apart;
+        assert_eq!(apart.len(), 1, "{unit}, {of_u}");
+        close(apart[0].en, 2.02 / (0.02 * 2.0_f64.sqrt()), 1e-9);
+    }
+}

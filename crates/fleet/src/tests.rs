@@ -666,3 +666,25 @@ fn an_uncertainty_in_degrees_is_a_difference() {
         close(apart[0].en, 2.02 / (0.02 * 2.0_f64.sqrt()), 1e-9);
     }
 }
+
+/// Heads as tables of devices may have them, where the unit stands in round brackets or behind a solidus.
+#[test]
+fn units_stand_in_other_brackets_and_behind_a_solidus() {
+    let rows = "a,20.01,0.01,2\nb,22.02,0.01,2\nc,20.00,0.01,2\nd,20.00,0.01,2\n";
+    for heads in [
+        "y (mm),u(y) (mm),k(y)",
+        "y（mm）,u(y)（mm）,k(y)",
+        "y/mm,u(y)/mm,k(y)",
+        "y ［mm］,u(y) ［mm］,k(y)",
+        "y [mm],u(y)/mm,k(y)",
+    ] {
+        let found = found(&format!("label,{heads}\n{rows}"), &Wanted::default());
+        let y = &found.measurands[0];
+        assert_eq!((y.name.as_str(), y.unit.symbol.as_str()), ("y", "mm"));
+        assert_eq!(y.agreement.apart[0].device, "b", "{heads}");
+    }
+    // What is in brackets behind these words is a name, also where it is that of a unit.
+    let named = "label,m,u(m),k(m),verdict(m),share(m; A)\na,1,0.1,2,conforming,1\nb,1,0.1,2,conforming,1\n";
+    let found = found(named, &Wanted::default());
+    assert!(found.measurands[0].unit.is_one());
+}

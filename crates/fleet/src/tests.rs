@@ -7,6 +7,8 @@ use rand_distr::{ChiSquared, Distribution, Normal};
 use gumption_format::csv::Cells;
 
 use super::*;
+use crate::deviation::Others;
+use crate::results::Values;
 
 fn found(table: &str, wanted: &Wanted) -> Fleet {
     match fleet((table.as_bytes(), "results.csv"), wanted) {
@@ -687,4 +689,55 @@ fn units_stand_in_other_brackets_and_behind_a_solidus() {
     let named = "label,m,u(m),k(m),verdict(m),share(m; A)\na,1,0.1,2,conforming,1\nb,1,0.1,2,conforming,1\n";
     let found = found(named, &Wanted::default());
     assert!(found.measurands[0].unit.is_one());
+}
+
+/// What is wrong with a device is wrong with its other calibrations: others are other devices.
+#[test]
+fn other_calibrations_of_a_device_are_none_of_the_others() {
+    let dated = Wanted {
+        date: Some("date".to_owned()),
+        ..Wanted::default()
+    };
+    let head = "label,date,y,u(y),k(y)\n";
+    let sound = [
+        "b,2023-01-01,10.0,0.1,2\n",
+        "c,2023-01-01,10.02,0.1,2\n",
+        "d,2024-01-01,9.98,0.1,2\n",
+    ];
+    let apart = ["a,2023-01-01,10.25,0.1,2\n", "a,2024-01-01,10.26,0.1,2\n"];
+    let table = |rows: &[&str]| format!("{head}{}{}", sound.concat(), rows.concat());
+    let of_a = |found: &Fleet, row: usize| {
+        let mut all = found.measurands[0].agreement.apart.iter();
+        let one = all.find(|one| one.row == row).expect("a row that is apart");
+        one.other
+    };
+    let both = found(&table(&apart), &dated);
+    close(of_a(&both, 4), 10.0, 1e-12);
+    close(of_a(&both, 5), 10.0, 1e-12);
+    assert_eq!(both.measurands[0].agreement.tested, 5);
+    let alone = found(&format!("{head}{}", apart.concat()), &dated);
+    assert_eq!((alone.tests, alone.measurands[0].agreement.tested), (0, 0));
+    // Without dates each row is an item of its own.
+    let undated = found(&table(&apart), &Wanted::default());
+    assert!(undated.measurands[0].agreement.tested == 5);
+}
+
+/// Also where a device weighs more than all others, of which a difference of sums would leave nothing.
+#[test]
+fn a_device_that_weighs_most_leaves_the_others_whole() {
+    let values = Values {
+        estimate: vec![1.0, 1.1, 3.0, 3.2, 5.0],
+        u: vec![1e-9, 1e-9, 0.1, 0.1, 0.2],
+        dof: vec![f64::INFINITY; 5],
+        expanded: vec![f64::NAN; 5],
+    };
+    let devices = [7, 7, 8, 8, 9];
+    let rows = [0, 1, 2, 3, 4];
+    let others = Others::of(&values, &rows, 3.0, Some(&devices));
+    let other = |row: usize| others.deviation(row, true).expect("others").other;
+    for row in [0, 1] {
+        close(other(row), (300.0 + 320.0 + 125.0) / 225.0, 1e-14);
+    }
+    close(other(2), 1.05, 1e-12);
+    close(other(4), 1.05, 1e-12);
 }

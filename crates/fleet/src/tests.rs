@@ -741,3 +741,21 @@ fn a_device_that_weighs_most_leaves_the_others_whole() {
     close(other(2), 1.05, 1e-12);
     close(other(4), 1.05, 1e-12);
 }
+
+/// Chinese tables have such dates.
+#[test]
+fn dates_are_read_in_chinese() {
+    let rows =
+        |a: &str, b: &str| format!("label,日期,y,u(y),k(y)\nd,{a},1.0,0.1,2\nd,{b},1.3,0.1,2\n");
+    let dated = Wanted {
+        date: Some("日期".to_owned()),
+        ..Wanted::default()
+    };
+    let rate = |table: &str| {
+        let found = found(table, &dated);
+        let drift = found.measurands[0].drift.clone().expect("dates");
+        drift.groups[0].mean
+    };
+    let iso = rate(&rows("2022-03-01", "2023-03-01"));
+    assert_eq!(rate(&rows("2022年3月1日", "2023年03月01日")), iso);
+}

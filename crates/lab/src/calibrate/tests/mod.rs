@@ -7,6 +7,7 @@ mod pattern;
 mod refusals;
 mod shares;
 mod simulations;
+mod stated;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};

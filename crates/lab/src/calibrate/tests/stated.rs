@@ -1,0 +1,70 @@
+//! What a file states of its readings and parameters acts as it is said, or is refused with how to say it.
+
+use super::super::{Calibration, calibrate, plan};
+use super::{campaign, near, planned, rejected};
+use crate::experiment::Purpose;
+
+const LINE: &str = "equations = [\"y = a + b*x\"]\nrecording = { file = \"run.csv\", average = \"none\" }\n[parameter]\na = {}\nb = {}\n";
+
+/// Ten points on y = x, 0 to 9, which scatter by about a millivolt.
+const VOLTS: &str = "x [V],y [V]\n0,0.001\n1,1.002\n2,1.999\n3,3.001\n4,3.998\n5,5.000\n6,6.002\n7,6.999\n8,8.001\n9,8.998\n";
+
+fn found(more: &str, csv: &str) -> Calibration {
+    calibrate(&campaign(&format!("{LINE}{more}"), csv)).expect("coefficients")
+}
+
+fn refusal(toml: &str, csv: &str, purpose: Purpose) -> String {
+    let refused = rejected(toml, csv, purpose);
+    refused.expect_err("a fault").render(false)
+}
+
+#[track_caller]
+fn says(more: &str, csv: &str, words: &[&str]) {
+    let said = refusal(&format!("{LINE}{more}"), csv, Purpose::Calibrate);
+    for word in words {
+        assert!(said.contains(word), "{word:?} is not in\n{said}");
+    }
+}
+
+/// `common = true` is that of a vector in a budget: one error for all points, which shifts the line and does not turn it.
+#[test]
+fn an_error_that_is_said_to_be_common_is_one_for_all_points() {
+    let stated = "[noise]\nfrom = \"stated\"\n[reading.y]\n";
+    for errors in [
+        "u = \"10 mV\"\ncommon = true",
+        "components = [{ name = \"meter\", u = \"10 mV\", common = true }]",
+        "components = [{ u = \"6 mV\", common = true }, { u = \"8 mV\", common = true }]",
+        "components = [{ u = \"10 mV\", common = true }]\nscope = \"common\"",
+    ] {
+        let found = found(&format!("{stated}{errors}\n"), VOLTS);
+        let [a, b] = found.figures.coefficients.as_slice() else {
+            panic!("two coefficients");
+        };
+        near(a.u, 0.01, 1e-9);
+        assert!(b.u < 1e-15, "{errors}: {}", b.u);
+    }
+    let schedule = "equations = \"y = a + b*x\"\n[parameter]\na = {}\nb = {}\n[columns.y]\nunit = \"V\"\n[schedule]\n\"x [V]\" = [0, 1, 2, 3]\n";
+    let planned = planned(&format!("{schedule}{stated}u = \"10 mV\"\ncommon = true\n"));
+    let figures = plan(&planned).expect("a plan").figures.expect("figures");
+    near(figures.coefficients[0].u, 0.01, 1e-9);
+}
+
+#[test]
+fn scopes_do_not_contradict_each_other() {
+    let mixed = "[reading.y]\ncomponents = [{ u = \"1 mV\" }, { u = \"10 mV\", common = true }]\n";
+    says(mixed, VOLTS, &["C0114", "another is not", "[source.NAME]"]);
+    let each = "[reading.y]\nu = \"1 mV\"\ncommon = true\nscope = \"each\"\n";
+    says(
+        each,
+        VOLTS,
+        &["C0114", "by `scope`", "leave out one of them"],
+    );
+    // A component beside a cause that has a scope of its own.
+    let source = "[noise]\nfrom = \"stated\"\n[reading.y]\ncomponents = [{ source = \"meter\" }, { u = \"1 mV\" }]\n[source.meter]\nunit = \"V\"\nu = 0.01\n";
+    near(
+        found(source, VOLTS).figures.coefficients[0].u,
+        // 55 of 825: the a of a line through ten points.
+        0.01_f64.hypot(1e-3 * (285.0_f64 / 825.0).sqrt()),
+        1e-9,
+    );
+}

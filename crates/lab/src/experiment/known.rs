@@ -76,6 +76,18 @@ impl Known<'_> {
         self.stated().filter(own)
     }
 
+    /// Where it is said how its errors lie about what is read.
+    pub fn place_of_location(&self) -> Range<usize> {
+        let limits = |one: &ComponentTable| {
+            let limits = one.limits.as_ref().map(|stated| &stated.key);
+            let plus = one.plus.as_ref().map(|stated| &stated.key);
+            let distribution = one.distribution.as_ref().map(|stated| &stated.key);
+            limits.or(plus).or(distribution).cloned()
+        };
+        let found = self.stated().find_map(limits);
+        found.unwrap_or_else(|| self.entry.key.clone())
+    }
+
     /// Whether nothing doubts it.
     pub fn is_exact(&self) -> bool {
         let table = self.table();
@@ -248,6 +260,16 @@ fn refuse_foreign_keys(checker: &mut Checker<'_>, one: &Known<'_>) {
             &from.key,
             say!("results of other budgets are not taken here"),
             say!("state its value, and its uncertainty as certificate = {{ U = …, k = 2 }}"),
+        );
+    }
+    if let Some(value) = one.table().value.as_ref().filter(|_| one.is_reading) {
+        let name = one.name;
+        refuse(
+            &value.key,
+            say!("the readings of {name} stand in the recording"),
+            say!(
+                "leave out `value`: what is stated here is the error of each of them, of expectation 0; a known correction is an input of the equations: [input.e_{name}] with its value, {name} = … + e_{name}"
+            ),
         );
     }
 }

@@ -68,3 +68,39 @@ fn scopes_do_not_contradict_each_other() {
         1e-9,
     );
 }
+
+/// Nothing is added to what was read: an expectation other than zero is a correction, and is said as one.
+#[test]
+fn errors_of_readings_have_the_expectation_zero() {
+    let moved = ["expectation of an error", "scope = \"each\"", "[input.e_y]"];
+    says("[reading.y]\nlimits = [-0.01, 0.03]\n", VOLTS, &moved);
+    says(
+        "[reading.y]\nplus = \"30 mV\"\nminus = \"10 mV\"\n",
+        VOLTS,
+        &moved,
+    );
+    says(
+        "[reading.y]\nplus = \"3 %\"\nminus = \"1 %\"\n",
+        VOLTS,
+        &moved,
+    );
+    says(
+        "[reading.x]\nlimits = [-0.01, 0.03]\n",
+        VOLTS,
+        &["[input.e_x]"],
+    );
+    let value = "[reading.y]\nu = \"10 mV\"\nvalue = 0.5\n";
+    says(
+        value,
+        VOLTS,
+        &["stand in the recording", "leave out `value`"],
+    );
+    // Symmetric ones move nothing.
+    let symmetric =
+        "[noise]\nfrom = \"stated\"\n[reading.y]\nlimits = [-0.01, 0.01]\nscope = \"common\"\n";
+    near(
+        found(symmetric, VOLTS).figures.coefficients[0].u,
+        0.01 / 3.0_f64.sqrt(),
+        1e-9,
+    );
+}

@@ -12,6 +12,8 @@ use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Amount, Stated};
+use gumption_gum::budget::faults::RELATIVE_UNCLEAR;
+use gumption_gum::budget::quantities::is_unclear_share;
 use gumption_gum::budget::tables::{ComponentTable, ConstantEntry, InputTable};
 use gumption_gum::budget::variants::Amounts;
 use smol_str::SmolStr;
@@ -141,6 +143,9 @@ pub(crate) fn all<'t>(
     for one in &all {
         refuse_foreign_keys(checker, one);
         refuse_other_scopes(checker, one);
+        if one.is_reading {
+            refuse_unclear_shares(checker, one);
+        }
     }
     (checker.faults.len() == before).then_some(all)
 }
@@ -303,6 +308,41 @@ fn refuse_other_scopes(checker: &mut Checker<'_>, one: &Known<'_>) {
         None => return,
     };
     checker.faults.push(fault);
+}
+
+/// Of a column of plain numbers or of per cent, "0.01 %" may be so much of each reading or so much for all of them, as of such
+/// an input of a budget.
+fn refuse_unclear_shares(checker: &mut Checker<'_>, one: &Known<'_>) {
+    let (unit, name) = (one.unit.difference(), one.name);
+    for stated in one.stated().filter(|stated| !is_relative(stated)) {
+        for (amount, place) in widths(stated) {
+            let own = unit_of(amount, &checker.units);
+            let Some(own) = own.filter(|own| is_unclear_share(own, &unit)) else {
+                continue;
+            };
+            let number = amount.number;
+            let of_unit = |unit: &Unit| {
+                let conversion = own.conversion_to(unit);
+                conversion.map_or(number, |to| to.apply(number))
+            };
+            let (share, plain) = (of_unit(&Unit::one()), of_unit(&unit));
+            let within = match unit.is_one() {
+                true => Said::default(),
+                false => say!(" (in {})", unit.symbol),
+            };
+            let message = say!(
+                "{number} {} of {name} may be meant of each reading or as it stands",
+                own.symbol
+            );
+            checker.faults.push(
+                Fault::new(RELATIVE_UNCLEAR, place.clone(), message)
+                    .label(say!("relative or absolute?"))
+                    .help(say!(
+                        "for {share} of each reading write {share} with relative = true beside it (of a certificate, not between its braces); for an absolute amount write the plain number {plain}{within}"
+                    )),
+            );
+        }
+    }
 }
 
 /// Constants as far as their units can be read; their check tells what is wrong with the others.

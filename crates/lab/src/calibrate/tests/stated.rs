@@ -104,3 +104,48 @@ fn errors_of_readings_have_the_expectation_zero() {
         1e-9,
     );
 }
+
+/// Of readings without a unit "1 %" may be so much of each, or 0.01 of all of them.
+#[test]
+fn a_share_of_plain_numbers_is_not_guessed() {
+    let digits = "x,y\n0,100000\n1,200000\n2,300001\n3,400000\n";
+    let unclear = ["B0113", "of each reading", "relative = true"];
+    for errors in [
+        "u = \"1 %\"",
+        "u = \"100 ppm\"",
+        "half_width = \"1 ‰\"",
+        "certificate = { U = \"2 %\", k = 2 }",
+        "components = [{ u = 3 }, { plus = \"1 %\", minus = \"1 %\" }]",
+    ] {
+        says(&format!("[reading.y]\n{errors}\n"), digits, &unclear);
+    }
+    let schedule = "equations = \"y = a + b*x\"\n[parameter]\na = { start = 1 }\nb = { start = 2 }\n[schedule]\nx = [0, 1, 2]\n[reading.y]\nu = \"1 %\"\n";
+    let said = refusal(schedule, "", Purpose::Plan);
+    assert!(said.contains("B0113"), "{said}");
+    // In per cent, and of all rows alike.
+    let humid = digits.replace("x,y", "x,y [%]");
+    says("[reading.y]\nu = \"1 %\"\n", &humid, &["B0113", "(in %)"]);
+    says(
+        "[noise]\nu = \"1 %\"\n",
+        digits,
+        &["B0113", "plain number 0.01"],
+    );
+    assert!(found("[noise]\nu = \"1 %\"\n", &humid).figures.coefficients[0].u > 0.0);
+    // Both meanings can be said.
+    let u = |errors: &str| {
+        let stated = format!("[noise]\nfrom = \"stated\"\n[reading.y]\n{errors}\n");
+        found(&stated, digits).figures.coefficients[1].u
+    };
+    near(u("u = 0.01"), 0.01 / 5.0_f64.sqrt(), 1e-9);
+    let weights = [-0.3_f64, -0.1, 0.1, 0.3];
+    let read = [1e5_f64, 2e5, 300_001.0, 4e5];
+    let squares = weights
+        .iter()
+        .zip(read)
+        .map(|(w, y)| (0.01 * w * y).powi(2));
+    near(
+        u("u = 0.01\nrelative = true"),
+        squares.sum::<f64>().sqrt(),
+        1e-9,
+    );
+}

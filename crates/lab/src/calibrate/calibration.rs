@@ -298,7 +298,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
 
 /// Standard uncertainties of readings of equal weight, for the first round: as the known errors of the readings of each response
 /// are in the mean; where there are none, readings that count much.
-fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
+pub(super) fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
     let size = stack
         .observed
         .iter()

@@ -149,3 +149,63 @@ fn a_share_of_plain_numbers_is_not_guessed() {
         1e-9,
     );
 }
+
+/// Readings of different u, first in a plan and then taken.
+#[test]
+fn a_plan_is_that_of_the_fit_which_the_file_asks_for() {
+    let (x, u) = (
+        [0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0],
+        [0.01, 0.01, 0.01, 0.01, 0.1, 0.1, 1.0, 1.0],
+    );
+    let head = |weights: &str| {
+        format!(
+            "equations = \"y = a + b*x\"\n{weights}[parameter]\na = {{ start = 1 }}\nb = {{ start = 2 }}\n[columns]\nu_y = \"u\"\n"
+        )
+    };
+    let (listed_x, listed_u) = (format!("{x:?}"), format!("{u:?}"));
+    let schedule = format!("[schedule]\nx = {listed_x}\nu_y = {listed_u}\n");
+    let row = |(x, u): (f64, f64)| format!("{x},{},{u}\n", 1.0 + 2.0 * x + u);
+    let csv = format!(
+        "x,y,u_y\n{}",
+        x.into_iter().zip(u).map(row).collect::<String>()
+    );
+    let recording = "[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
+    let mut slopes = Vec::new();
+    for weights in ["", "weights = \"readings\"\n"] {
+        let before = plan(&planned(&format!("{}{schedule}", head(weights))));
+        let before = before.expect("a plan").figures.expect("figures");
+        let after = calibrate(&campaign(&format!("{}{recording}", head(weights)), &csv));
+        let after = after.expect("coefficients").figures;
+        for (before, after) in before.coefficients.iter().zip(&after.coefficients) {
+            near(before.u, after.u, 1e-9);
+        }
+        slopes.push(before.coefficients[1].u);
+    }
+    let mean = x.iter().sum::<f64>() / 8.0;
+    let sxx: f64 = x.iter().map(|x| (x - mean).powi(2)).sum();
+    let squares = x.iter().zip(u).map(|(x, u)| ((x - mean) * u / sxx).powi(2));
+    near(slopes[0], squares.sum::<f64>().sqrt(), 1e-9);
+    assert!(slopes[1] < 0.3 * slopes[0], "{slopes:?}");
+    // So many readings in each row.
+    let counts = "equations = \"y = a + b*x\"\n[parameter]\na = { start = 1 }\nb = { start = 2 }\n[columns]\nn = \"count\"\n[noise]\nu = 0.1\n[schedule]\nx = [0, 1, 2, 5, 10, 20, 50, 100]\nn = [100, 100, 100, 100, 1, 1, 1, 1]\n";
+    let figures = plan(&planned(counts))
+        .expect("a plan")
+        .figures
+        .expect("figures");
+    near(figures.coefficients[0].u, 0.023_54, 1e-3);
+}
+
+/// Beside what is known of a parameter readings count by what they have in the mean, in a plan as later.
+#[test]
+fn a_plan_with_a_known_parameter_is_that_of_its_fit() {
+    let head = "equations = \"y = a + b*x\"\n[parameter]\na = { value = 1, u = 0.05 }\nb = { start = 2 }\n[columns]\nu_y = \"u\"\n";
+    let schedule = "[schedule]\nx = [0, 1, 2, 3]\nu_y = [0.1, 0.1, 0.2, 0.2]\n";
+    let csv = "x,y,u_y\n0,1.1,0.1\n1,3.05,0.1\n2,4.9,0.2\n3,7.1,0.2\n";
+    let before = plan(&planned(&format!("{head}{schedule}"))).expect("a plan");
+    let before = before.figures.expect("figures");
+    let recording = "[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
+    let after = calibrate(&campaign(&format!("{head}{recording}"), csv)).expect("coefficients");
+    for (before, after) in before.coefficients.iter().zip(&after.figures.coefficients) {
+        near(before.u, after.u, 1e-9);
+    }
+}

@@ -17,6 +17,7 @@ use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
+use super::uneven::{Uneven, uneven};
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
@@ -227,12 +228,16 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
     let limits = limits(&stack, &solution, &scatters, &u);
-    let residuals = residuals(&stack, &solution, &gain, &scatters, &u);
+    let uneven = uneven(&stack, (&solution, &gain), &scatters, &u);
+    let residuals = residuals(&stack, (&solution, &gain), (&scatters, &uneven), &u);
     let figures = figures(campaign, &solution.parameters, causes);
     let explained = !swapped.is_empty() || !limits.is_empty();
     let apart = match explained {
         true => Vec::new(),
-        false => apart(&residuals, &scatters.responses, &campaign.points.names),
+        false => {
+            let responses = (scatters.responses.as_slice(), uneven.as_slice());
+            apart(&residuals, responses, &campaign.points.names)
+        }
     };
     let told = explained || !apart.is_empty();
     let patterns = match told || scatters.way != Scatter::Residuals {
@@ -392,9 +397,8 @@ fn effective(causes: &[Cause], coefficient: usize, u: f64) -> f64 {
 
 fn residuals(
     stack: &Stack<'_>,
-    solution: &Solution,
-    gain: &Gain,
-    scatters: &Scatters,
+    (solution, gain): (&Solution, &Gain),
+    (scatters, uneven): (&Scatters, &[Option<Uneven>]),
     u: &[f64],
 ) -> Vec<Residual> {
     let campaign = stack.campaign;
@@ -402,6 +406,12 @@ fn residuals(
     let jacobian = stack.jacobian(&solution.parameters, &ones);
     let count = campaign.experiment.parameters.len();
     let mut residuals = Vec::new();
+    // Of a response whose readings are known to scatter differently, one after the other.
+    let spreads = uneven.iter().map(|uneven| {
+        let spreads = uneven.as_ref().map(|uneven| uneven.spread.as_slice());
+        spreads.unwrap_or_default().iter().copied()
+    });
+    let mut spreads: Vec<_> = spreads.collect();
     for (index, row) in stack.rows.iter().enumerate() {
         let Row::Reading { point, response } = row else {
             continue;
@@ -412,7 +422,10 @@ fn residuals(
             .dot(&gain.by_observed.column(index).rows(0, count));
         let free = (1.0 - leverage).max(0.0);
         let scatter = &scatters.responses[*response];
-        let s = scatter.relative * u[index] * free.sqrt();
+        let s = match spreads.get_mut(*response).and_then(Iterator::next) {
+            Some(spread) => spread,
+            None => scatter.relative * u[index] * free.sqrt(),
+        };
         let residual = solution.residuals[index];
         residuals.push(Residual {
             point: *point,

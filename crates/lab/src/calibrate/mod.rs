@@ -67,6 +67,7 @@ mod swaps;
 mod tests;
 mod together;
 mod trouble;
+mod uneven;
 
 pub use agreement::{Misfit, ScatterTest};
 pub use apart::Apart;

@@ -209,3 +209,34 @@ fn a_plan_with_a_known_parameter_is_that_of_its_fit() {
         near(before.u, after.u, 1e-9);
     }
 }
+
+/// Sixteen readings of u = 0.02 and four of u = 1, whose residuals are a part of that.
+#[test]
+fn a_reading_within_its_own_uncertainty_does_not_stand_apart() {
+    let csv = |bad: usize, by: f64| {
+        let row = |at: usize| {
+            let u = if at % 5 == 4 { 1.0 } else { 0.02 };
+            // Signs that change, sizes between 0.4 u and 1.2 u.
+            let size = 0.4 + 0.8 * ((at * 7) % 10) as f64 / 9.0;
+            let sign = if (at * at / 3) % 2 == 0 { 1.0 } else { -1.0 };
+            let error = if at == bad { by } else { sign * size * u };
+            format!("{at},{},{u}\n", 1.0 + 2.0 * at as f64 + error)
+        };
+        format!("x,y,u_y\n{}", (0..20).map(row).collect::<String>())
+    };
+    for weights in ["", "weights = \"readings\"\n"] {
+        let found = |bad, by| {
+            let toml = format!("{weights}{LINE}[columns]\nu_y = \"u\"\n");
+            calibrate(&campaign(&toml, &csv(bad, by))).expect("coefficients")
+        };
+        // 1.9 u of the reading, and far more than the others lie apart.
+        let honest = found(9, 1.9);
+        assert!(honest.apart.is_empty(), "{:?}", honest.apart);
+        let largest = honest.largest_residuals(1)[0];
+        assert!(largest.standardised.abs() < 2.5, "{largest:?}");
+        // Less than u of the others, and 20 u of its own.
+        let wrong = found(7, 0.4);
+        assert_eq!(wrong.apart.len(), 1, "{weights}");
+        assert!(wrong.apart[0].point.en.contains('9'), "{:?}", wrong.apart);
+    }
+}

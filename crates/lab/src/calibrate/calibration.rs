@@ -7,6 +7,7 @@ use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Contribution};
 use super::causes::causes;
 use super::coefficient::Coefficient;
+use super::contradicted::{Contradicted, contradicted};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
@@ -49,6 +50,8 @@ pub struct Calibration {
     pub reversed: Vec<String>,
     /// Points that stand apart from all others, where no exchange explains it.
     pub apart: Vec<Apart>,
+    /// Parameters of which the readings say something else than what is stated of them.
+    pub contradicted: Vec<Contradicted>,
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
     /// Responses whose residuals are no scatter although they tell the scatter, where nothing of the above explains it.
@@ -231,7 +234,8 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     let uneven = uneven(&stack, (&solution, &gain), &scatters, &u);
     let residuals = residuals(&stack, (&solution, &gain), (&scatters, &uneven), &u);
     let figures = figures(campaign, &solution.parameters, causes);
-    let explained = !swapped.is_empty() || !limits.is_empty();
+    let contradicted = contradicted(campaign, |campaign| whole(campaign, &[]));
+    let explained = !swapped.is_empty() || !limits.is_empty() || !contradicted.is_empty();
     let apart = match explained {
         true => Vec::new(),
         false => {
@@ -247,6 +251,7 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     Ok(Calibration {
         patterns,
         swapped,
+        contradicted,
         reversed: reversed(&figures.coefficients, &campaign.same_sign),
         apart,
         limits,

@@ -240,3 +240,30 @@ fn a_reading_within_its_own_uncertainty_does_not_stand_apart() {
         assert!(wrong.apart[0].point.en.contains('9'), "{:?}", wrong.apart);
     }
 }
+
+/// Readings that scatter by a millivolt, and an offset that is stated 500 of its u away from them.
+#[test]
+fn a_known_value_that_the_readings_contradict_is_told() {
+    let toml =
+        |value: &str| LINE.replace("a = {}", &format!("a = {{ value = {value}, u = 0.001 }}"));
+    let of = |value: &str, noise: &str| {
+        let toml = format!("{}{noise}", toml(value));
+        calibrate(&campaign(&toml, VOLTS)).expect("coefficients")
+    };
+    for noise in ["", "[noise]\nu = \"2 mV\"\n"] {
+        let found = of("0.5", noise);
+        let [told] = found.contradicted.as_slice() else {
+            panic!("{:?}", found.contradicted);
+        };
+        assert_eq!((told.parameter.as_str(), told.stated), ("a", [0.5, 0.001]));
+        let alone = calibrate(&campaign(&format!("{LINE}{noise}"), VOLTS)).expect("coefficients");
+        let alone = &alone.figures.coefficients[0];
+        assert_eq!(told.found, [alone.value, alone.u]);
+        assert!(found.patterns.is_empty() && found.apart.is_empty());
+        assert!(of("0.001", noise).contradicted.is_empty());
+    }
+    // Where the readings alone tell nothing of the parameter there is nothing to compare.
+    let both = "equations = [\"y = a + c + b*x\"]\nrecording = { file = \"run.csv\", average = \"none\" }\n[parameter]\na = { value = 0.5, u = 0.001 }\nb = {}\nc = { value = -0.2, u = 0.001 }\n";
+    let found = calibrate(&campaign(both, VOLTS)).expect("coefficients");
+    assert_eq!(found.contradicted.len(), 2, "{:?}", found.contradicted);
+}

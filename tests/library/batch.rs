@@ -764,7 +764,8 @@ fn contributions_stand_below_their_components() {
     }
     let why = cell(&found, &found.1[2], "error");
     assert!(
-        why.contains("nothing for the column contribution(y, a.q)"),
+        why.starts_with("B0404: ")
+            && why.contains("nothing for the column contribution(y, a.q)"),
         "{why}"
     );
 

@@ -391,9 +391,7 @@ impl Table {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    Ok(shape) => {
-                        misfit(lines.shapes.heads(shape), heads).in_language(self.language)
-                    }
+                    Ok(shape) => misfit(lines.shapes.heads(shape), heads, self.language),
                     Err(why) => why,
                 };
                 self.count.failed += 1;

@@ -4,7 +4,7 @@ mod shape;
 mod values;
 
 use super::rows::{Cell, Head};
-use super::{Report, remarks, rows};
+use super::{Report, decisions, remarks, rows};
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found, Lot, Several};
@@ -243,7 +243,12 @@ impl Columns {
                 }
                 let findings = evaluation.findings.iter();
                 let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
-                give(Cell::Text(&codes(budget, findings)));
+                // Beside a result that looks like any other nobody asks for its threshold.
+                let asked = budget.detection.iter().zip(&evaluation.detection);
+                let unseen = asked.filter(|(_, found)| found.recognised() == Some(false));
+                let unseen =
+                    unseen.map(|(asked, _)| (decisions::NOT_RECOGNISED, Some(asked.measurand)));
+                give(Cell::Text(&codes(budget, findings.chain(unseen))));
                 give(Cell::Text(""));
                 let refuses = |verdict| verdict == Some(Verdict::NotConforming);
                 let mut conformity = evaluation.conformity.iter();

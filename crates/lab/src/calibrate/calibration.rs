@@ -234,7 +234,10 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     let uneven = uneven(&stack, (&solution, &gain), &scatters, &u);
     let residuals = residuals(&stack, (&solution, &gain), (&scatters, &uneven), &u);
     let figures = figures(campaign, &solution.parameters, causes);
-    let contradicted = contradicted(campaign, |campaign| whole(campaign, &[]));
+    let contradicted = contradicted(campaign, |campaign| {
+        let found = whole(campaign, &[]).ok()?;
+        (found.identifiability.rank == count).then_some(found.figures.coefficients)
+    });
     let explained = !swapped.is_empty() || !limits.is_empty() || !contradicted.is_empty();
     let apart = match explained {
         true => Vec::new(),

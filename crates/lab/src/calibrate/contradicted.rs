@@ -1,9 +1,8 @@
 //! What is known of parameters beforehand, beside what the readings give without it.
 
 use super::apart::RARE;
-use super::calibration::Calibration;
 use super::campaign::Campaign;
-use super::trouble::Trouble;
+use super::coefficient::Coefficient;
 use gumption_core::special::student_t_sf;
 use gumption_core::statistics::{effective_freedom, norm};
 
@@ -23,10 +22,10 @@ pub struct Contradicted {
 
 /// Readings that count by their own scatter give way to what is stated of a parameter, however far away they are, and their scatter
 /// grows to what that leaves: nothing in the residuals says so. Without it they say where they lie. They may need what is stated of
-/// one parameter to tell another: then each is left out by itself.
+/// one parameter to tell another: then each is left out by itself. `coefficients` are those of a campaign, where it determines all.
 pub(super) fn contradicted(
     campaign: &Campaign,
-    calibrate: impl Fn(&Campaign) -> Result<Calibration, Trouble>,
+    coefficients: impl Fn(&Campaign) -> Option<Vec<Coefficient>>,
 ) -> Vec<Contradicted> {
     let parameters = campaign.experiment.parameters.iter().enumerate();
     let known: Vec<usize> = parameters
@@ -42,13 +41,11 @@ pub(super) fn contradicted(
         for place in left_out {
             campaign.experiment.parameters[*place].known = None;
         }
-        let found = calibrate(&campaign).ok()?;
-        let rank = found.identifiability.rank;
-        (rank == campaign.experiment.parameters.len()).then_some(found)
+        coefficients(&campaign)
     };
-    let compare = |place: usize, found: &Calibration| {
+    let compare = |place: usize, found: &[Coefficient]| {
         let one = &campaign.experiment.parameters[place];
-        let (stated, found) = (one.known?, &found.figures.coefficients[place]);
+        let (stated, found) = (one.known?, &found[place]);
         let parts = [(stated.u, stated.dof), (found.u, found.dof)];
         let u = norm(parts.iter().map(|(u, _)| *u));
         let dof = effective_freedom(parts.into_iter());

@@ -141,6 +141,15 @@ impl Form {
         let Some(ending) = self.target.ending().filter(|_| self.format.0.is_none()) else {
             return Ok(self.format.0.unwrap_or(&FORMATS[0]));
         };
+        if let Some(folder) = self.target.file().filter(|path| path.is_dir()) {
+            let within = folder.join("report.md");
+            return Err(say!(
+                "{} is a folder; write the name of a file in it, such as {}",
+                folder.display(),
+                within.display()
+            )
+            .into());
+        }
         render::with_ending(&ending).ok_or_else(|| {
             let endings: Vec<String> = FORMATS.iter().map(|f| format!(".{}", f.ending)).collect();
             let endings = endings.join(", ");

@@ -156,6 +156,10 @@ const MISTAKES: &[(&str, &[&str])] = &[
         "output_into_missing_folder",
         &["eval", "good.toml", "--no-mc", "-o", "nowhere/report.txt"],
     ),
+    (
+        "output_is_a_folder",
+        &["eval", "good.toml", "--no-mc", "-o", "."],
+    ),
     ("explain_unknown", &["explain", "trianglar"]),
     ("explain_unknown_code", &["explain", "B9999"]),
     ("explain_empty", &["explain", ""]),

@@ -3,7 +3,7 @@
 
 use gumption_core::statistics::norm;
 
-use crate::deviation::{Deviation, Others, SIGNIFICANCE, Weights};
+use crate::deviation::{Deviation, Devices, Others, SIGNIFICANCE, Weights};
 use crate::group::{GroupResult, Members};
 use crate::parallel::in_order;
 use crate::results::{MeasurandValues, Values};
@@ -22,7 +22,7 @@ pub struct Apart {
     pub group: usize,
     /// Its estimate.
     pub estimate: f64,
-    /// What it is held against: the reference, or the weighted mean of the others of its group.
+    /// What it is held against: the reference, or the weighted mean of the other devices of its group.
     pub other: f64,
     /// E_n, with sign.
     pub en: f64,
@@ -61,11 +61,20 @@ impl Agreement {
 }
 
 /// Rows of a group that can be tested.
-pub(crate) fn testable(measurand: &MeasurandValues, members: &Members) -> usize {
+pub(crate) fn testable(
+    measurand: &MeasurandValues,
+    members: &Members,
+    devices: Option<&Devices>,
+) -> usize {
     let own = &measurand.values.expanded;
+    let rows = &members.weighed;
+    let has_others = match (devices, rows.first()) {
+        (Some(devices), Some(first)) => rows.iter().any(|row| devices[*row] != devices[*first]),
+        _ => rows.len() > 1,
+    };
     let is_known = |row: &&usize| match &measurand.reference {
         Some((_, reference)) => own[**row].is_finite() && reference.expanded[**row].is_finite(),
-        None => members.weighed.len() > 1 && own[**row].is_finite(),
+        None => has_others && own[**row].is_finite(),
     };
     members.weighed.iter().filter(is_known).count()
 }
@@ -76,13 +85,13 @@ pub(crate) fn agreement(
     members: &[Members],
     results: &mut [GroupResult],
     [tests, threads]: [usize; 2],
-    device: impl Fn(usize) -> String,
+    (devices, name): (Option<&Devices>, impl Fn(usize) -> String),
 ) -> Agreement {
     let values = &measurand.values;
     let mut found = Agreement::default();
     let mut beyond = Vec::new();
     for (group, (members, result)) in members.iter().zip(results).enumerate() {
-        let against = Against::of(measurand, members, [tests, threads]);
+        let against = Against::of(measurand, members, [tests, threads], devices);
         let compare = |place: usize| against.compared(members, place);
         let places: Vec<usize> = (0..members.weighed.len()).collect();
         in_order(&places, threads, compare, |place, compared| {
@@ -122,7 +131,7 @@ pub(crate) fn agreement(
     let listed = beyond.into_iter().take(LISTED);
     let apart = listed.map(|(probability, en, row, group, other)| Apart {
         row: row + 1,
-        device: device(row),
+        device: name(row),
         group,
         estimate: values.estimate[row],
         other,
@@ -157,6 +166,7 @@ impl<'v> Against<'v> {
         measurand: &'v MeasurandValues,
         members: &Members,
         [tests, threads]: [usize; 2],
+        devices: Option<&'v Devices>,
     ) -> Against<'v> {
         let values = &measurand.values;
         if let Some((_, reference)) = &measurand.reference {
@@ -166,7 +176,7 @@ impl<'v> Against<'v> {
         let agreeing = members.weighed.iter().zip(&agrees);
         let agreeing = agreeing.filter(|(_, agrees)| **agrees);
         let agreeing: Vec<usize> = agreeing.map(|(row, _)| *row).collect();
-        let others = Others::of(values, &agreeing, members.median);
+        let others = Others::of(values, &agreeing, members.median, devices);
         Against::Others(values, others, agrees)
     }
 

@@ -1,5 +1,7 @@
 //! A value beside others that should agree with it: their weighted mean without it, the difference, and how probable that is.
 
+use std::collections::HashMap;
+
 use gumption_core::special::{normal_sf, student_t_score, student_t_sf};
 use gumption_core::statistics::{effective_freedom, norm, power_of_two};
 
@@ -79,7 +81,11 @@ impl<'v> Sums<'v> {
         origin: f64,
     ) -> Sums<'v> {
         let weights = Weights::of(values, rows.clone());
-        let mut sums = Sums {
+        Sums::empty(weights, origin).with(rows)
+    }
+
+    fn empty(weights: Weights<'v>, origin: f64) -> Sums<'v> {
+        Sums {
             weights,
             origin,
             count: 0,
@@ -87,30 +93,37 @@ impl<'v> Sums<'v> {
             first: 0.0,
             looseness: 0.0,
             scatter: 0.0,
-        };
-        for row in rows {
-            let weight = weights.of_row(row);
-            sums.count += 1;
-            sums.weight += weight;
-            sums.first += weight * (values.estimate[row] - origin);
-            sums.looseness += weight / values.dof[row];
-            sums.scatter += weight * weight / values.dof[row];
         }
-        sums
     }
 
-    fn without(&self, row: usize) -> Sums<'v> {
+    fn with(mut self, rows: impl Iterator<Item = usize>) -> Sums<'v> {
         let values = self.weights.values;
-        let weight = self.weights.of_row(row);
-        Sums {
-            weights: self.weights,
-            origin: self.origin,
-            count: self.count - 1,
-            weight: self.weight - weight,
-            first: self.first - weight * (values.estimate[row] - self.origin),
-            looseness: self.looseness - weight / values.dof[row],
-            scatter: self.scatter - weight * weight / values.dof[row],
+        for row in rows {
+            let weight = self.weights.of_row(row);
+            self.count += 1;
+            self.weight += weight;
+            self.first += weight * (values.estimate[row] - self.origin);
+            self.looseness += weight / values.dof[row];
+            self.scatter += weight * weight / values.dof[row];
         }
+        self
+    }
+
+    /// Without some of its rows, of which these are the sums in the same unit.
+    fn without(&self, own: &Sums<'_>) -> Sums<'v> {
+        Sums {
+            count: self.count - own.count,
+            weight: self.weight - own.weight,
+            first: self.first - own.first,
+            looseness: self.looseness - own.looseness,
+            scatter: self.scatter - own.scatter,
+            ..*self
+        }
+    }
+
+    /// Those of one row in the unit of these.
+    fn of_row(&self, row: usize) -> Sums<'v> {
+        Sums::empty(self.weights, self.origin).with(std::iter::once(row))
     }
 
     /// What a row has of the weights of all.
@@ -138,27 +151,60 @@ impl<'v> Sums<'v> {
     }
 }
 
-/// Each of these rows beside the weighted mean of the others among them.
+/// Which rows are of one device: of each row of a table the number of its device.
+pub(crate) type Devices = [u32];
+
+/// Each of these rows beside the weighted mean of the others among them: of those of other devices, where a device has several.
 #[derive(Debug)]
 pub(crate) struct Others<'v> {
     values: &'v Values,
     sums: Sums<'v>,
-    /// The row that weighs more than all others together: a difference of sums would leave nothing of these.
+    /// What weighs more than all others together, a row or a device: a difference of sums would leave nothing of these.
     heaviest: Option<(usize, Sums<'v>)>,
+    /// The devices of rows, and the sums of the rows that each has among these.
+    of_device: Option<(&'v Devices, HashMap<u32, Sums<'v>>)>,
 }
 
 impl<'v> Others<'v> {
-    pub fn of(values: &'v Values, rows: &[usize], origin: f64) -> Others<'v> {
+    /// With `devices`, other rows of its device are none of the others of a row: what is wrong with it is wrong with them.
+    pub fn of(
+        values: &'v Values,
+        rows: &[usize],
+        origin: f64,
+        devices: Option<&'v Devices>,
+    ) -> Others<'v> {
         let sums = Sums::of(values, rows.iter().copied(), origin);
-        let heavy = |row: &&usize| 2.0 * sums.weights.of_row(**row) > sums.weight;
-        let heaviest = rows.iter().find(heavy).map(|heavy| {
-            let others = rows.iter().copied().filter(|row| row != heavy);
-            (*heavy, Sums::of(values, others, origin))
+        let of_device = devices.map(|devices| {
+            let mut of_device: HashMap<u32, Sums<'v>> = HashMap::new();
+            for row in rows {
+                let empty = Sums::empty(sums.weights, origin);
+                let own = of_device.entry(devices[*row]).or_insert(empty);
+                *own = own.with(std::iter::once(*row));
+            }
+            (devices, of_device)
+        });
+        let is_heavy = |weight: f64| 2.0 * weight > sums.weight;
+        let heavy = match &of_device {
+            None => {
+                let mut all = rows.iter().copied();
+                all.find(|row| is_heavy(sums.weights.of_row(*row)))
+            }
+            Some((_, of_device)) => {
+                let mut all = of_device.iter();
+                let heavy = all.find(|(_, own)| is_heavy(own.weight));
+                heavy.map(|(device, _)| *device as usize)
+            }
+        };
+        let heaviest = heavy.map(|heavy| {
+            let others = rows.iter().copied();
+            let others = others.filter(|row| key(*row, devices) != heavy);
+            (heavy, Sums::of(values, others, origin))
         });
         Others {
             values,
             sums,
             heaviest,
+            of_device,
         }
     }
 
@@ -169,14 +215,25 @@ impl<'v> Others<'v> {
 
     /// A row beside the mean of the others, of which it is one or not; nothing where there are no others.
     pub fn deviation(&self, row: usize, is_one: bool) -> Option<Deviation> {
-        let others = match &self.heaviest {
-            _ if !is_one => self.sums,
-            Some((heavy, others)) if *heavy == row => *others,
-            _ => self.sums.without(row),
+        let devices = self.of_device.as_ref();
+        let own = match devices {
+            None => is_one.then(|| self.sums.of_row(row)),
+            Some((devices, of_device)) => of_device.get(&devices[row]).copied(),
+        };
+        let key = key(row, devices.map(|(devices, _)| *devices));
+        let others = match (own, &self.heaviest) {
+            (None, _) => self.sums,
+            (Some(_), Some((heavy, others))) if *heavy == key => *others,
+            (Some(own), _) => self.sums.without(&own),
         };
         let other = (others.count > 0).then(|| (others.mean(), others.u(), others.dof()));
         other.map(|other| Deviation::of(self.values, row, other))
     }
+}
+
+/// What a row is one of: its device, or nothing but itself.
+fn key(row: usize, devices: Option<&Devices>) -> usize {
+    devices.map_or(row, |devices| devices[row] as usize)
 }
 
 impl Deviation {

@@ -6,7 +6,7 @@ codes! {
     NO_MEASURAND = "F0101", "a table of results has no measurand", "结果表中没有被测量",
         "The statistics of a fleet need of each measurand y its estimates, a column `y` or `y [unit]`, and two of its standard uncertainty `u(y)`, its coverage factor `k(y)` and its expanded uncertainty `U(y)`: from two the third follows. `gumption batch` writes all of them.\n\n    label,I [mA],u(I) [mA],k(I),U(I) [mA]\n    a,9.999,0.0031,2,0.0062";
     NOT_A_DATE = "F0102", "a date cannot be read", "日期无法识别",
-        "The dates of calibrations are written as `2026-03-01`, as `01.03.2026` (with points the day goes first), or with a time behind them. A row may have none; it is left out of the drift then. `3/1/2026` leaves open which is the month.";
+        "The dates of calibrations are written as `2026-03-01`, as `2026年3月1日`, as `01.03.2026` (with points the day goes first), or with a time behind them. A row may have none; it is left out of the drift then. `3/1/2026` leaves open which is the month.";
     NO_REFERENCE = "F0103", "a reference has no uncertainty", "参考值缺少不确定度",
         "E_n weighs a difference with the expanded uncertainties of both of its sides. Beside the column `X` of a reference stands `U(X)`, or `u(X)` with `k(X)`; 0 for a value that is exact. With several measurands, `--reference y=X` says whose reference it is.";
     SIGN = "F0104", "an uncertainty has a sign", "不确定度带有负号",

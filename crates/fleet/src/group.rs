@@ -176,7 +176,7 @@ impl Consistency {
         mut scores: impl FnMut(f64),
     ) -> Option<Consistency> {
         let rows = &members.weighed;
-        let others = Others::of(values, rows, members.median);
+        let others = Others::of(values, rows, members.median, None);
         let sums = others.sums();
         let dof = rows.len().checked_sub(1).filter(|dof| *dof > 0)?;
         let (mut chi_squared, mut of_scores) = (0.0, 0.0);

@@ -14,6 +14,25 @@ use crate::wanted::Wanted;
 /// U in tables of engines, which do not tell it from u.
 const EXPANDED: &str = "expanded";
 
+/// Words before brackets that hold a name, and no unit.
+const OF_NAMES: [&str; 15] = [
+    "u",
+    "U",
+    EXPANDED,
+    "nu",
+    "k",
+    "lower",
+    "upper",
+    "verdict",
+    "p_c",
+    "share",
+    "contribution",
+    "decision_threshold",
+    "detection_limit",
+    "best",
+    "u_best",
+];
+
 /// Where everything stands.
 #[derive(Debug)]
 pub(crate) struct Layout {
@@ -87,9 +106,9 @@ impl NumberColumn {
 /// The head of a column.
 struct Head<'a> {
     text: &'a str,
-    /// Without the unit in square brackets: `u(I)`.
+    /// Without the unit, mostly in square brackets: `u(I)`.
     name: &'a str,
-    unit: Option<&'a str>,
+    has_unit: bool,
     place: Range<usize>,
 }
 
@@ -161,25 +180,27 @@ pub(crate) fn layout(sheet: &Sheet<'_>, wanted: &Wanted) -> Result<Layout, Vec<F
 impl<'a> Heads<'a> {
     fn of(sheet: &'a Sheet<'_>) -> Heads<'a> {
         let fields = sheet.header().fields().enumerate();
+        let units = UnitTable::default();
         let head = |(at, text): (usize, &'a str)| {
             let bracketed = text
                 .strip_suffix(']')
                 .and_then(|text| text.rsplit_once('['));
             let (name, unit) = match bracketed {
-                Some((name, unit)) if !name.trim().is_empty() => (name.trim(), Some(unit.trim())),
-                _ => (text, None),
+                Some((name, _)) if !name.trim().is_empty() => (name.trim(), true),
+                _ => match name_before_unit(text, &units) {
+                    Some(name) => (name, true),
+                    None => (text, false),
+                },
             };
             Head {
                 text,
                 name,
-                unit,
+                has_unit: unit,
                 place: sheet.name_place(at),
             }
         };
-        Heads {
-            all: fields.map(head).collect(),
-            units: UnitTable::default(),
-        }
+        let all = fields.map(head).collect();
+        Heads { all, units }
     }
 
     fn whole(&self) -> Range<usize> {
@@ -279,7 +300,7 @@ impl<'a> Heads<'a> {
         let deviation = unit.difference();
         let number = |letter: &str| {
             let at = self.optional(&format!("{letter}({name})"));
-            at.map(|at| self.number(at, &deviation)).transpose()
+            at.map(|at| self.spread(at, &deviation)).transpose()
         };
         let plain = |letter: &str| self.optional(&format!("{letter}({name})"));
         Ok(StatedColumns {
@@ -295,7 +316,9 @@ impl<'a> Heads<'a> {
 
     fn unit(&self, at: usize) -> Result<Option<Unit>, Box<Fault>> {
         let head = &self.all[at];
-        let Some(_) = head.unit else { return Ok(None) };
+        if !head.has_unit {
+            return Ok(None);
+        }
         let heading = Heading::read(head.text, &self.units);
         heading.unit.map_err(|error| {
             let start = head.place.start;
@@ -304,8 +327,23 @@ impl<'a> Heads<'a> {
         })
     }
 
-    /// A column of numbers that are needed in this unit.
+    /// A column of values that are needed in this unit.
     fn number(&self, at: usize, unit: &Unit) -> Result<NumberColumn, Box<Fault>> {
+        self.converted(at, unit, Unit::clone)
+    }
+
+    /// A column of uncertainties that are needed in this unit: one that is headed °C is a difference, as on every certificate of
+    /// a thermometer, and no temperature.
+    fn spread(&self, at: usize, unit: &Unit) -> Result<NumberColumn, Box<Fault>> {
+        self.converted(at, unit, Unit::difference)
+    }
+
+    fn converted(
+        &self,
+        at: usize,
+        unit: &Unit,
+        meant: impl Fn(&Unit) -> Unit,
+    ) -> Result<NumberColumn, Box<Fault>> {
         let head = &self.all[at];
         let (text, symbol) = (head.text, &unit.symbol);
         let fault = |code, message| {
@@ -313,7 +351,7 @@ impl<'a> Heads<'a> {
             Box::new(Fault::new(code, head.place.clone(), message).help(help))
         };
         let found = match self.unit(at)? {
-            Some(found) => found,
+            Some(found) => meant(&found),
             None if unit.is_one() => Unit::one(),
             None => return Err(fault(NO_UNIT, say!("\"{text}\" has no unit"))),
         };
@@ -361,7 +399,7 @@ impl<'a> Heads<'a> {
         stated.value = self.number(at, &unit)?;
         let spreads = [&mut stated.u, &mut stated.expanded];
         for column in spreads.into_iter().flatten() {
-            *column = self.number(column.at, &unit.difference())?;
+            *column = self.spread(column.at, &unit.difference())?;
         }
         stated.unit = unit;
         let is_known = stated.expanded.is_some() || (stated.u.is_some() && stated.k.is_some());
@@ -384,9 +422,26 @@ fn reference_of(stated: &str) -> (Option<&str>, &str) {
     }
 }
 
-/// What stands in brackets behind a word: `u(I)`.
+/// The name of a head whose unit stands in other brackets or behind a solidus, as tables of devices have it, too: `y (mm)`, `u(y)/℃`.
+fn name_before_unit<'h>(text: &'h str, units: &UnitTable) -> Option<&'h str> {
+    let is_written = text.ends_with([')', '）', '］']) || text.contains(['/', '／']);
+    if !is_written || OF_NAMES.iter().any(|word| call(text, word).is_some()) {
+        return None;
+    }
+    let heading = Heading::read(text, units);
+    heading.unit.ok().flatten()?;
+    text.get(..heading.name.len())
+        .filter(|name| *name == heading.name)
+}
+
+/// What stands in brackets behind a word: `u(I)`; not of `u(I) (mA)`, whose last bracket closes another.
 fn call<'h>(head: &'h str, word: &str) -> Option<&'h str> {
-    head.strip_prefix(word)?
-        .strip_prefix('(')?
-        .strip_suffix(')')
+    let inside = head.strip_prefix(word)?.strip_prefix('(')?;
+    let inside = inside.strip_suffix(')')?;
+    let closes = |depth: &mut i32, c: char| {
+        *depth += i32::from(c == '(') - i32::from(c == ')');
+        Some(*depth < 0)
+    };
+    let closed_before = inside.chars().scan(0, closes).any(|closed| closed);
+    (!closed_before).then_some(inside)
 }

@@ -53,6 +53,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::Rejection;
 use gumption_format::csv::Columns;
 
+use crate::deviation::Devices;
 use crate::group::Members;
 use crate::results::{BETWEEN, Levels, Results};
 
@@ -166,17 +167,25 @@ fn found(results: &Results, wanted: &Wanted) -> Fleet {
             rows.collect()
         })
         .collect();
+    let devices = results.numbered_devices();
     let all = results.measurands.iter().zip(&members);
     let testable = |(one, members): (&_, &Vec<Members>)| -> usize {
         members
             .iter()
-            .map(|members| agreement::testable(one, members))
+            .map(|members| agreement::testable(one, members, devices.as_deref()))
             .sum()
     };
     let tests = all.clone().map(testable).sum();
     let threads = wanted.threads();
-    let measurands = (0..results.measurands.len())
-        .map(|at| measurand(results, at, &members[at], tests, threads));
+    let measurands = (0..results.measurands.len()).map(|at| {
+        measurand(
+            (results, devices.as_deref()),
+            at,
+            &members[at],
+            tests,
+            threads,
+        )
+    });
     Fleet {
         rows: results.rows,
         by: wanted.by.clone(),
@@ -204,7 +213,7 @@ fn rows_of_groups(levels: &Levels) -> Vec<(&str, Vec<usize>)> {
 }
 
 fn measurand(
-    results: &Results,
+    (results, devices): (&Results, Option<&Devices>),
     at: usize,
     members: &[Members],
     tests: usize,
@@ -218,7 +227,7 @@ fn measurand(
     let groups =
         groups.map(|members| GroupResult::of(one, members, threads, |score| deviations.add(score)));
     let mut groups: Vec<GroupResult> = groups.collect();
-    let device = |row| results.devices.name(row);
+    let device = (devices, |row| results.devices.name(row));
     let agreement = agreement::agreement(one, members, &mut groups, [tests, threads], device);
     let drift = results.dates.as_ref().map(|dates| {
         let rows = members.iter().map(|members| members.weighed.as_slice());

@@ -247,6 +247,21 @@ impl Results {
         }
     }
 
+    /// The devices of rows that have dates, as numbers: such a table has the same device several times. A row without a name is one
+    /// of its own.
+    pub fn numbered_devices(&self) -> Option<Vec<u32>> {
+        self.dates.as_ref()?;
+        let mut known: HashMap<&str, u32> = HashMap::new();
+        let numbered = (0..self.rows).map(|row| {
+            let own = row as u32;
+            match self.devices.get(row) {
+                "" => own,
+                name => *known.entry(name).or_insert(own),
+            }
+        });
+        Some(numbered.collect())
+    }
+
     /// These results, if there are any.
     fn some(self, head: &Sheet<'_>) -> Result<Results, Vec<Fault>> {
         if self.rows > 0 {

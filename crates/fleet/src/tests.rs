@@ -7,6 +7,8 @@ use rand_distr::{ChiSquared, Distribution, Normal};
 use gumption_format::csv::Cells;
 
 use super::*;
+use crate::deviation::Others;
+use crate::results::Values;
 
 fn found(table: &str, wanted: &Wanted) -> Fleet {
     match fleet((table.as_bytes(), "results.csv"), wanted) {
@@ -634,4 +636,126 @@ fn what_a_batch_refuses_is_refused() {
     assert!(said.contains("decimal"), "{said}");
     let said = refusal(&format!("{rows}mean;1,1;0,1;2\n"), &Wanted::default());
     assert!(said.contains("means of those"), "{said}");
+}
+
+/// Certificates of thermometers state U in °C: a difference, of values and of references alike.
+#[test]
+fn an_uncertainty_in_degrees_is_a_difference() {
+    let units = [
+        ["°C", "K", "0.02"],
+        ["°C", "°C", "0.02"],
+        ["℃", "℃", "0.02"],
+        ["K", "°C", "0.02"],
+        ["°C", "℉", "0.036"],
+    ];
+    for [unit, of_u, expanded] in units {
+        let row = |(name, t): (&str, &str)| format!("{name},{t},{expanded},2,20,{expanded}\n");
+        let rows = [("a", "20.01"), ("b", "22.02"), ("c", "20.00"), ("d", "20")].map(row);
+        let heads = format!("label,t [{unit}],U(t) [{of_u}],k(t)");
+        let alone = format!("{heads},kept,kept too\n{}", rows.concat());
+        let found_alone = found(&alone, &Wanted::default());
+        let t = &found_alone.measurands[0];
+        close(t.groups[0].u, 0.01, 1e-9);
+        assert_eq!(t.agreement.named, 1, "{unit}, {of_u}");
+        let referred = format!("{heads},X [{unit}],U(X) [{of_u}]\n{}", rows.concat());
+        let wanted = Wanted {
+            references: vec!["X".to_owned()],
+            ..Wanted::default()
+        };
+        let found_referred = found(&referred, &wanted);
+        let apart = &found_referred.measurands[0].agreement.apart;
+        assert_eq!(apart.len(), 1, "{unit}, {of_u}");
+        close(apart[0].en, 2.02 / (0.02 * 2.0_f64.sqrt()), 1e-9);
+    }
+}
+
+/// Heads as tables of devices may have them, where the unit stands in round brackets or behind a solidus.
+#[test]
+fn units_stand_in_other_brackets_and_behind_a_solidus() {
+    let rows = "a,20.01,0.01,2\nb,22.02,0.01,2\nc,20.00,0.01,2\nd,20.00,0.01,2\n";
+    for heads in [
+        "y (mm),u(y) (mm),k(y)",
+        "y（mm）,u(y)（mm）,k(y)",
+        "y/mm,u(y)/mm,k(y)",
+        "y ［mm］,u(y) ［mm］,k(y)",
+        "y [mm],u(y)/mm,k(y)",
+    ] {
+        let found = found(&format!("label,{heads}\n{rows}"), &Wanted::default());
+        let y = &found.measurands[0];
+        assert_eq!((y.name.as_str(), y.unit.symbol.as_str()), ("y", "mm"));
+        assert_eq!(y.agreement.apart[0].device, "b", "{heads}");
+    }
+    // What is in brackets behind these words is a name, also where it is that of a unit.
+    let named = "label,m,u(m),k(m),verdict(m),share(m; A)\na,1,0.1,2,conforming,1\nb,1,0.1,2,conforming,1\n";
+    let found = found(named, &Wanted::default());
+    assert!(found.measurands[0].unit.is_one());
+}
+
+/// What is wrong with a device is wrong with its other calibrations: others are other devices.
+#[test]
+fn other_calibrations_of_a_device_are_none_of_the_others() {
+    let dated = Wanted {
+        date: Some("date".to_owned()),
+        ..Wanted::default()
+    };
+    let head = "label,date,y,u(y),k(y)\n";
+    let sound = [
+        "b,2023-01-01,10.0,0.1,2\n",
+        "c,2023-01-01,10.02,0.1,2\n",
+        "d,2024-01-01,9.98,0.1,2\n",
+    ];
+    let apart = ["a,2023-01-01,10.25,0.1,2\n", "a,2024-01-01,10.26,0.1,2\n"];
+    let table = |rows: &[&str]| format!("{head}{}{}", sound.concat(), rows.concat());
+    let of_a = |found: &Fleet, row: usize| {
+        let mut all = found.measurands[0].agreement.apart.iter();
+        let one = all.find(|one| one.row == row).expect("a row that is apart");
+        one.other
+    };
+    let both = found(&table(&apart), &dated);
+    close(of_a(&both, 4), 10.0, 1e-12);
+    close(of_a(&both, 5), 10.0, 1e-12);
+    assert_eq!(both.measurands[0].agreement.tested, 5);
+    let alone = found(&format!("{head}{}", apart.concat()), &dated);
+    assert_eq!((alone.tests, alone.measurands[0].agreement.tested), (0, 0));
+    // Without dates each row is an item of its own.
+    let undated = found(&table(&apart), &Wanted::default());
+    assert!(undated.measurands[0].agreement.tested == 5);
+}
+
+/// Also where a device weighs more than all others, of which a difference of sums would leave nothing.
+#[test]
+fn a_device_that_weighs_most_leaves_the_others_whole() {
+    let values = Values {
+        estimate: vec![1.0, 1.1, 3.0, 3.2, 5.0],
+        u: vec![1e-9, 1e-9, 0.1, 0.1, 0.2],
+        dof: vec![f64::INFINITY; 5],
+        expanded: vec![f64::NAN; 5],
+    };
+    let devices = [7, 7, 8, 8, 9];
+    let rows = [0, 1, 2, 3, 4];
+    let others = Others::of(&values, &rows, 3.0, Some(&devices));
+    let other = |row: usize| others.deviation(row, true).expect("others").other;
+    for row in [0, 1] {
+        close(other(row), (300.0 + 320.0 + 125.0) / 225.0, 1e-14);
+    }
+    close(other(2), 1.05, 1e-12);
+    close(other(4), 1.05, 1e-12);
+}
+
+/// Chinese tables have such dates.
+#[test]
+fn dates_are_read_in_chinese() {
+    let rows =
+        |a: &str, b: &str| format!("label,日期,y,u(y),k(y)\nd,{a},1.0,0.1,2\nd,{b},1.3,0.1,2\n");
+    let dated = Wanted {
+        date: Some("日期".to_owned()),
+        ..Wanted::default()
+    };
+    let rate = |table: &str| {
+        let found = found(table, &dated);
+        let drift = found.measurands[0].drift.clone().expect("dates");
+        drift.groups[0].mean
+    };
+    let iso = rate(&rows("2022-03-01", "2023-03-01"));
+    assert_eq!(rate(&rows("2022年3月1日", "2023年03月01日")), iso);
 }

@@ -4,7 +4,7 @@ mod shape;
 mod values;
 
 use super::rows::{Cell, Head};
-use super::{Report, remarks, rows};
+use super::{Report, decisions, remarks, rows};
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found, Lot, Several};
@@ -153,9 +153,8 @@ impl Columns {
         let numbers = measurands.clone().flat_map(|one| {
             let of = figures.columns(one);
             let [lower, upper] = of.ends.map(Some);
-            let found = [of.estimate, of.u].map(Some);
-            let wide = [Some(of.k), Some(of.expanded), lower, upper];
-            found.into_iter().chain([of.dof]).chain(wide)
+            let found = [of.estimate, of.u, of.dof, of.k, of.expanded].map(Some);
+            found.into_iter().chain([lower, upper])
         });
         let mut columns: Vec<Given<'_>> = numbers.map(Given::Numbers).collect();
         if self.shares {
@@ -244,7 +243,12 @@ impl Columns {
                 }
                 let findings = evaluation.findings.iter();
                 let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
-                give(Cell::Text(&codes(budget, findings)));
+                // Beside a result that looks like any other nobody asks for its threshold.
+                let asked = budget.detection.iter().zip(&evaluation.detection);
+                let unseen = asked.filter(|(_, found)| found.recognised() == Some(false));
+                let unseen =
+                    unseen.map(|(asked, _)| (decisions::NOT_RECOGNISED, Some(asked.measurand)));
+                give(Cell::Text(&codes(budget, findings.chain(unseen))));
                 give(Cell::Text(""));
                 let refuses = |verdict| verdict == Some(Verdict::NotConforming);
                 let mut conformity = evaluation.conformity.iter();
@@ -392,9 +396,7 @@ impl Table {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    Ok(shape) => {
-                        misfit(lines.shapes.heads(shape), heads).in_language(self.language)
-                    }
+                    Ok(shape) => misfit(lines.shapes.heads(shape), heads, self.language),
                     Err(why) => why,
                 };
                 self.count.failed += 1;

@@ -9,7 +9,8 @@ use gumption_gum::budget::Budget;
 use gumption_gum::propagate::Figures;
 
 /// One line for every row, exact, as comma-separated values: label, and for every measurand what is reported of it, with its
-/// unit in the head; for every assessment its verdict and conformance probability. What a row has not is empty.
+/// unit in the head; for every assessment its verdict and conformance probability; for every characteristic limit whether the effect is
+/// recognised, the limits and the best estimate. What a row has not is empty.
 ///
 /// # Errors
 /// Only where the text cannot be put together, which memory alone could prevent.
@@ -75,6 +76,13 @@ pub(super) fn heads(budget: &Budget) -> Vec<Head> {
         heads.push(Head::texts(format!("verdict({})", assessment.name)));
         heads.push(Head::numbers(format!("p_c({})", assessment.name)));
     }
+    for detection in &budget.detection {
+        let Output { name, unit, .. } = &budget.model.outputs()[detection.measurand];
+        heads.push(Head::texts(format!("verdict(detection of {name})")));
+        for figure in ["decision_threshold", "detection_limit", "best", "u_best"] {
+            heads.push(in_unit(format!("{figure}({name})"), unit));
+        }
+    }
     heads
 }
 
@@ -127,6 +135,19 @@ pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell<'_>)) {
         ));
         let known = found.conformance.as_ref();
         give(Cell::Number(known.and_then(|known| known.probability)));
+    }
+    for found in &report.evaluation.detection {
+        give(Cell::Text(match found.recognised() {
+            Some(true) => decisions::RECOGNISED,
+            Some(false) => decisions::NOT_RECOGNISED,
+            None => "",
+        }));
+        let limits = found.limits;
+        let limit = limits.and_then(|limits| limits.detection_limit.value());
+        give(Cell::Number(limits.map(|limits| limits.decision_threshold)));
+        give(Cell::Number(limit));
+        give(Cell::Number(Some(found.best.value)));
+        give(Cell::Number(Some(found.best.u)));
     }
 }
 

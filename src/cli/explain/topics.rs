@@ -152,7 +152,9 @@ fn in_a_file(kind: &Kind, rows: &[KeyRow], lang: Language) -> String {
 /// Source, weight and what speaks for the other side.
 fn rule_text(rule: &audit::rules::Rule, lang: Language) -> String {
     let weight = rule.said();
-    let mut text = say!("{weight}; {}.", rule.clause).in_language(lang);
+    let (between, end) = (lang.semicolon(), lang.pick(".", "。"));
+    let weight = weight.in_language(lang);
+    let mut text = format!("{weight}{between}{}{end}", rule.clause);
     let fine = lang.pick(rule.fine_en, rule.fine_zh);
     text += "\n\n";
     text += &say!("Why it may be right: {fine}.").in_language(lang);

@@ -199,7 +199,15 @@ fn digits(text: &str, count: usize, largest: i64) -> Option<i64> {
 
 /// Days from 1 January 1970 to a date of the Gregorian calendar.
 fn days_of(date: &str) -> Option<i64> {
-    let parts: Vec<&str> = date.split(['-', '/', '.']).collect();
+    let parts: Vec<&str> = match date.strip_suffix(['日', '号']) {
+        // The signs say which is which.
+        Some(chinese) => {
+            let (year, rest) = chinese.split_once('年')?;
+            let (month, day) = rest.split_once('月')?;
+            vec![year, month, day]
+        }
+        None => date.split(['-', '/', '.']).collect(),
+    };
     // The day goes first with points only: between solidi it may be the month.
     let (year, month, day) = match parts[..] {
         [day, month, year] if date.matches('.').count() == 2 && year.len() == 4 => {
@@ -387,7 +395,16 @@ mod tests {
         assert_eq!(seconds("01.03.2000"), Some(951_868_800.0));
         assert_eq!(seconds("2000.03.01"), Some(951_868_800.0));
         assert_eq!(seconds("1.3.2026 09:00:01.25"), Some(1_772_355_601.25));
+        assert_eq!(seconds("2000年3月1日"), Some(951_868_800.0));
+        assert_eq!(
+            seconds("2026年03月01日 09:00:01.25"),
+            Some(1_772_355_601.25)
+        );
         for wrong in [
+            "2026年13月1日",
+            "26年3月1日",
+            "3月1日",
+            "2026年3月",
             "2026-13-01T00:00",
             "13/03/2026 08:46:58",
             "03/13/2026 08:46:58 AM",

@@ -23,6 +23,35 @@ const MEANS: [&str; 9] = [
     "均值",
 ];
 
+/// What a line of sums is called.
+const SUMS: [&str; 9] = [
+    "total", "sum", "subtotal", "summe", "gesamt", "somme", "合计", "总计", "总和",
+];
+
+/// What a line makes of the numbers above it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Made {
+    Means,
+    Sums,
+}
+
+impl Made {
+    /// Of so many numbers with this sum.
+    fn of(self, sum: f64, count: usize) -> f64 {
+        match self {
+            Made::Means => sum / count as f64,
+            Made::Sums => sum,
+        }
+    }
+
+    fn words(self) -> &'static [&'static str] {
+        match self {
+            Made::Means => &MEANS,
+            Made::Sums => &SUMS,
+        }
+    }
+}
+
 /// Rows above of which numbers are no accident, and lines that sum up at most.
 const ROWS: usize = 3;
 const LINES: usize = 5;
@@ -62,8 +91,8 @@ fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
     )))
 }
 
-/// A line at the end whose numbers are the means of those above, in a table of which each row is something of its own: where no
-/// column but those of numbers tells its rows apart, it has a word in one of the others. One that is called a mean may have few
+/// A line at the end whose numbers are the means or the sums of those above, in a table of which each row is something of its own: where no
+/// column but those of numbers tells its rows apart, it has a word in one of the others. One that is called so may have few
 /// digits, and two rows above.
 pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
     let rows = || sheet.rows().filter_map(Result::ok);
@@ -100,23 +129,32 @@ fn mean_among<'r, R: Iterator<Item = Row<'r>>>(
     let word = |row: &Row<'_>| names.iter().copied().find(|at| is_word(row.field(*at)));
     word(&last)?;
     let rows: Vec<Row<'r>> = rows().collect();
-    let is_mean = |at: &usize| {
-        let (above, own) = (&rows[..*at], &rows[*at]);
-        let is_called = word(own).is_some_and(|column| is_called_mean(own.field(column)));
+    let is_made = |at: usize, made: Made| {
+        let (above, own) = (&rows[..at], &rows[at]);
+        let is_called = word(own).is_some_and(|column| is_called(own.field(column), made));
         let (fewest, rare) = if is_called { (2, 1.0) } else { (ROWS, RARE) };
-        let chance = || chance((above, fewest), own, &numbers, sheet);
-        rows[*at..].iter().all(|row| word(row).is_some())
+        let chance = || chance((above, fewest, made), own, &numbers, sheet);
+        rows[at..].iter().all(|row| word(row).is_some())
             && above.len() >= fewest
             && chance().is_some_and(|chance| chance < rare)
     };
     let first = rows.len().saturating_sub(LINES);
-    let own = &rows[(first..rows.len()).find(is_mean)?];
+    let made = |at: usize| {
+        let mut ways = [Made::Means, Made::Sums].into_iter();
+        Some((at, ways.find(|made| is_made(at, *made))?))
+    };
+    let (at, made) = (first..rows.len()).find_map(made)?;
+    let own = &rows[at];
     let column = word(own)?;
-    let message = say!(
-        "line {}, \"{}\": its numbers are the means of those of all rows above",
-        own.line,
-        own.field(column)
-    );
+    let (line, text) = (own.line, own.field(column));
+    let message = match made {
+        Made::Means => {
+            say!("line {line}, \"{text}\": its numbers are the means of those of all rows above")
+        }
+        Made::Sums => {
+            say!("line {line}, \"{text}\": its numbers are the sums of those of all rows above")
+        }
+    };
     let fault = Fault::new(NOT_A_NUMBER, place(own, column), message);
     let fault = fault.label(say!("does this line sum up the rows above?"));
     Some(fault.help(say!(
@@ -124,17 +162,17 @@ fn mean_among<'r, R: Iterator<Item = Row<'r>>>(
     )))
 }
 
-/// Whether a text calls its line the mean of others: `Mean`, `平均值`.
-fn is_called_mean(text: &str) -> bool {
+/// Whether a text calls its line the mean or the sum of others: `Mean`, `平均值`, `Total`.
+fn is_called(text: &str, made: Made) -> bool {
     let lower = text.to_lowercase();
     let mut words = lower.split(|c: char| !c.is_alphabetic());
-    words.any(|word| MEANS.contains(&word.trim_end_matches('值')))
+    words.any(|word| made.words().contains(&word.trim_end_matches('值')))
 }
 
-/// How likely numbers anywhere between those above are their means to the digits that a row has; nothing where its numbers are not.
-/// Fewer rows above than `fewest` say nothing.
+/// How likely numbers anywhere between those above are their means, or as far away as these their sums, to the digits that a row has;
+/// nothing where its numbers are not. Fewer rows above than `fewest` say nothing.
 fn chance(
-    (above, fewest): (&[Row<'_>], usize),
+    (above, fewest, made): (&[Row<'_>], usize, Made),
     own: &Row<'_>,
     columns: &[usize],
     sheet: &Sheet<'_>,
@@ -154,7 +192,7 @@ fn chance(
         let digit = 10f64.powi(place.unwrap_or(0));
         let (least, most) = range(numbers.iter().copied());
         let range = most - least;
-        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+        let mean = made.of(numbers.iter().sum::<f64>(), numbers.len());
         // Half a digit, beside what the sum is rounded by.
         let is_mean = (value - mean).abs() <= 0.5 * digit + 1e-12 * mean.abs();
         is_mean.then(|| if range > digit { digit / range } else { 1.0 })
@@ -230,6 +268,21 @@ mod tests {
             ),
             ("A,1.001,10.01\nB,1.005,10.03\nmean,1.002,10.02\n", None),
             ("A,1.001,10.01\nB,1.005,10.03\nMedian,1.003,10.02\n", None),
+        ] {
+            let text = format!("label,V,R\n{lines}");
+            assert_eq!(found(&text).as_deref(), wanted, "{lines}");
+        }
+
+        // Sums, which are as rare by chance.
+        for (lines, wanted) in [
+            ("A,1.0,10.0\nB,1.1,10.2\nTotal,2.1,20.2\n", Some("Total")),
+            ("A,1.0,10.0\nB,1.1,10.2\n合计,2.1,20.2\n", Some("合计")),
+            ("A,1.0,10.0\nB,1.1,10.2\nTotal,2.2,20.2\n", None),
+            (
+                "A,12.345,101.2\nB,45.678,204.9\nC,78.123,150.5\nall,136.146,456.6\n",
+                Some("all"),
+            ),
+            ("A,1,10\nB,1,12\nC,1,11\nD,3,33\n", None),
         ] {
             let text = format!("label,V,R\n{lines}");
             assert_eq!(found(&text).as_deref(), wanted, "{lines}");

@@ -158,7 +158,8 @@ CLAIM = "B0403", "a claim says too little, too much or contradicts itself", "声
 
 SERIES = "B0404", "a series is not usable", "系列数据不可用",
 "`[series]` has `columns`, the names of inputs (and `label`, `claim.value`, `claim.U` …), and `rows`, each with one \
-entry per column.";
+entry per column. In the results of a batch all rows have the columns of the first: one that leaves a component out has no place \
+below its contributions.";
 
 CONVENTIONS = "B0405", "conventions contradict one another", "约定不可用或相互矛盾",
 "State `coverage_factor` (a number) or `coverage_factor_from` (a rule), not both.";

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::check::{self, Origin};
 pub use super::checked::Quantities;
 use super::tables::FileTable;
-use gumption_core::quantity::UnitTable;
+use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Rejection};
 use gumption_format::files::Files;
 use gumption_format::toml::Stated;
@@ -42,6 +42,12 @@ pub fn units(stated: &[(SmolStr, Stated<String>)], text: &str) -> (UnitTable, Ve
 #[must_use]
 pub fn placed(fault: Fault, stated: &Stated<String>, text: &str) -> Fault {
     check::units::placed(fault, stated, text)
+}
+
+/// Whether an amount in `own`, a share such as % that does not say of what, has two meanings for a quantity in `unit`, which is
+/// itself a ratio or a plain number: so much of the quantity, or so much as it stands.
+pub fn is_unclear_share(own: &Unit, unit: &Unit) -> bool {
+    !own.is_one() && check::is_bare_ratio(own) && check::is_in_ratios(unit)
 }
 
 /// The text of a file.

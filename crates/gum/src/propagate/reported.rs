@@ -40,6 +40,8 @@ pub struct Reported {
     pub u: Option<f64>,
     /// ν that gave k; infinite where k follows from a normal distribution, `None` where no ν enters.
     pub dof: Option<f64>,
+    /// ν_eff of u, whatever k comes from: what others need who weigh u, compare it or form another k; `None` where u is that of trials.
+    pub freedom: Option<f64>,
     /// How far y may be off.
     pub uncertainty: ReportedUncertainty,
     /// The probability that goes with it.
@@ -122,7 +124,7 @@ pub struct Figures {
     pub estimate: f64,
     /// u(y).
     pub u: Option<f64>,
-    /// ν that gave k.
+    /// ν_eff of u as t would be entered by it, whatever k comes from: a fixed k makes no u of few readings well known.
     pub dof: Option<f64>,
     /// k.
     pub k: Option<f64>,
@@ -144,7 +146,7 @@ impl Reported {
         Figures {
             estimate: self.estimate,
             u: self.u,
-            dof: self.dof,
+            dof: self.freedom,
             k: self.coverage_factor(),
             expanded,
             ends,
@@ -215,6 +217,12 @@ impl MeasurandResult {
         }
     }
 
+    /// ν_eff as t would be entered by it.
+    fn freedom(&self, conventions: &Conventions) -> Option<f64> {
+        let rule = conventions.degrees_of_freedom;
+        Some(rule.entered(self.gum.freedom.value()))
+    }
+
     fn by_gum(&self, reason: Reason, conventions: &Conventions) -> Reported {
         let (gum, coverage) = (&self.gum, &self.gum.coverage);
         let refuted = matches!(reason, Reason::MomentsAgree | Reason::FewReadings);
@@ -231,6 +239,7 @@ impl MeasurandResult {
             estimate: gum.estimate,
             u: Some(gum.u),
             dof: coverage.dof(),
+            freedom: self.freedom(conventions),
             uncertainty,
             probability: stated_probability(coverage, conventions, refuted),
             rounding: conventions.rounding_rule(),
@@ -257,6 +266,7 @@ impl MeasurandResult {
             estimate: found.centre(),
             u: found.u,
             dof: None,
+            freedom: None,
             uncertainty,
             probability: match uncertainty {
                 ReportedUncertainty::Multiple { .. } => unclaimed(conventions),
@@ -280,6 +290,7 @@ impl MeasurandResult {
             estimate: moments.estimate,
             u: Some(moments.u),
             dof: self.gum.coverage.dof(),
+            freedom: self.freedom(conventions),
             uncertainty: ReportedUncertainty::Multiple { k, expanded },
             probability: unclaimed(conventions),
             ..self.by_monte_carlo(found, conventions)

@@ -51,8 +51,8 @@ pub struct FigureColumns<'a> {
     pub estimate: &'a [f64],
     /// u.
     pub u: &'a [f64],
-    /// ν by which k is entered.
-    pub dof: Option<&'a [f64]>,
+    /// ν_eff of u as t is entered by it, whatever k comes from.
+    pub dof: &'a [f64],
     /// k.
     pub k: &'a [f64],
     /// U.
@@ -352,7 +352,6 @@ impl RowEvaluation {
         match conventions.coverage_factor {
             CoverageRule::Fixed(k) => of.k = Block([k; LANES]),
             CoverageRule::Normal => {
-                of.entered = Block([f64::INFINITY; LANES]);
                 self.measurands[at].k = Block([self.factor(f64::INFINITY); LANES]);
             }
             rule @ (CoverageRule::Output | CoverageRule::StudentT) => {
@@ -422,10 +421,7 @@ impl RowEvaluation {
         FigureColumns {
             estimate: &of.estimate.0[lanes.clone()],
             u: &of.u.0[lanes.clone()],
-            dof: match self.budget.conventions.coverage_factor {
-                CoverageRule::Fixed(_) => None,
-                _ => Some(&of.entered.0[lanes.clone()]),
-            },
+            dof: &of.entered.0[lanes.clone()],
             k: &of.k.0[lanes.clone()],
             expanded: &of.expanded.0[lanes.clone()],
             ends: [&of.ends[0].0[lanes.clone()], &of.ends[1].0[lanes]],
@@ -490,7 +486,7 @@ impl RowFigures<'_> {
         Figures {
             estimate: of.estimate[0],
             u: Some(of.u[0]),
-            dof: of.dof.map(|dof| dof[0]),
+            dof: Some(of.dof[0]),
             k: Some(of.k[0]),
             expanded: Some(of.expanded[0]),
             ends: Some(of.ends.map(|end| end[0])),

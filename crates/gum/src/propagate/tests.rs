@@ -591,3 +591,30 @@ fn parameters_of_a_fit_are_few_readings_together() {
     assert_eq!(told.len(), 3, "{told:?}");
     close(told.iter().map(|one| one.share).sum(), 1.0, 1e-9);
 }
+
+/// What a table of results says of ν is that of u: a k that a profile fixes makes no u of four readings known for certain.
+#[test]
+fn the_freedom_of_u_does_not_follow_from_what_gives_k() {
+    let rules = [
+        "_from = \"output\"",
+        "_from = \"t\"",
+        "_from = \"normal\"",
+        " = 2",
+    ];
+    for rule in rules {
+        let text = format!(
+            "[conventions]\ncoverage_factor{rule}\n[measurand.y]\nmodel = \"b\"\n[input.b]\nreadings = [1.01, 1.03, 1.02, 1.04]\n"
+        );
+        let loaded = crate::budget::read(&text, "b.toml", std::path::Path::new(""));
+        let budget = &loaded.unwrap().rows[0].budget;
+        let reported = gum(budget).results[0].reported(&budget.conventions);
+        assert_eq!(reported.figures().dof, Some(3.0), "{rule}");
+        // As the rows of a batch have it, which are evaluated together.
+        let mut rows_of = RowEvaluation::new(budget).expect("a budget for rows");
+        let rows = crate::budget::Rows::of(budget);
+        rows_of.evaluate(&rows, 1);
+        let block = rows_of.figures(&rows, 0..1);
+        let row = block.rows().next().expect("a row");
+        assert_eq!(row.figures(0), reported.figures(), "{rule}");
+    }
+}

@@ -154,6 +154,19 @@ impl Rows {
         self.left.norm_squared()
     }
 
+    /// What is left of each reading over its standard deviation, √(sum/ν · (1 − h)); NaN where the parameters leave it nothing.
+    pub fn standardised(&self) -> Vec<f64> {
+        let s = (self.sum() / self.dof() as f64).sqrt();
+        let of_row = |row: usize| {
+            let free = 1.0 - self.taken.row(row).norm_squared();
+            match free > LEAST_FREE && s > 0.0 {
+                true => self.left[row] / (s * free.sqrt()),
+                false => f64::NAN,
+            }
+        };
+        (0..self.readings).map(of_row).collect()
+    }
+
     /// What an error that each reading has for itself lets expect of the sum of squares.
     pub fn expected(&self, error: &OfDoubt<'_>) -> f64 {
         let free = |row: usize| 1.0 - self.taken.row(row).norm_squared();

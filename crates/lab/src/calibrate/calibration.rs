@@ -7,6 +7,7 @@ use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Contribution};
 use super::causes::causes;
 use super::coefficient::Coefficient;
+use super::contradicted::{Contradicted, contradicted};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
@@ -17,6 +18,7 @@ use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
+use super::uneven::{Uneven, uneven};
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
@@ -48,6 +50,8 @@ pub struct Calibration {
     pub reversed: Vec<String>,
     /// Points that stand apart from all others, where no exchange explains it.
     pub apart: Vec<Apart>,
+    /// Parameters of which the readings say something else than what is stated of them.
+    pub contradicted: Vec<Contradicted>,
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
     /// Responses whose residuals are no scatter although they tell the scatter, where nothing of the above explains it.
@@ -221,12 +225,20 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
     let limits = limits(&stack, &solution, &scatters, &u);
-    let residuals = residuals(&stack, &solution, &gain, &scatters, &u);
+    let uneven = uneven(&stack, (&solution, &gain), &scatters, &u);
+    let residuals = residuals(&stack, (&solution, &gain), (&scatters, &uneven), &u);
     let figures = figures(campaign, &solution.parameters, causes);
-    let explained = !swapped.is_empty() || !limits.is_empty();
+    let contradicted = contradicted(campaign, |campaign| {
+        let found = whole(campaign, &[]).ok()?;
+        (found.identifiability.rank == count).then_some(found.figures.coefficients)
+    });
+    let explained = !swapped.is_empty() || !limits.is_empty() || !contradicted.is_empty();
     let apart = match explained {
         true => Vec::new(),
-        false => apart(&residuals, &scatters.responses, &campaign.points.names),
+        false => {
+            let responses = (scatters.responses.as_slice(), uneven.as_slice());
+            apart(&residuals, responses, &campaign.points.names)
+        }
     };
     let told = explained || !apart.is_empty();
     let patterns = match told || scatters.way != Scatter::Residuals {
@@ -236,6 +248,7 @@ fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibrat
     Ok(Calibration {
         patterns,
         swapped,
+        contradicted,
         reversed: reversed(&figures.coefficients, &campaign.same_sign),
         apart,
         limits,
@@ -292,7 +305,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
 
 /// Standard uncertainties of readings of equal weight, for the first round: as the known errors of the readings of each response
 /// are in the mean; where there are none, readings that count much.
-fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
+pub(super) fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
     let size = stack
         .observed
         .iter()
@@ -386,9 +399,8 @@ fn effective(causes: &[Cause], coefficient: usize, u: f64) -> f64 {
 
 fn residuals(
     stack: &Stack<'_>,
-    solution: &Solution,
-    gain: &Gain,
-    scatters: &Scatters,
+    (solution, gain): (&Solution, &Gain),
+    (scatters, uneven): (&Scatters, &[Option<Uneven>]),
     u: &[f64],
 ) -> Vec<Residual> {
     let campaign = stack.campaign;
@@ -396,6 +408,12 @@ fn residuals(
     let jacobian = stack.jacobian(&solution.parameters, &ones);
     let count = campaign.experiment.parameters.len();
     let mut residuals = Vec::new();
+    // Of a response whose readings are known to scatter differently, one after the other.
+    let spreads = uneven.iter().map(|uneven| {
+        let spreads = uneven.as_ref().map(|uneven| uneven.spread.as_slice());
+        spreads.unwrap_or_default().iter().copied()
+    });
+    let mut spreads: Vec<_> = spreads.collect();
     for (index, row) in stack.rows.iter().enumerate() {
         let Row::Reading { point, response } = row else {
             continue;
@@ -406,7 +424,10 @@ fn residuals(
             .dot(&gain.by_observed.column(index).rows(0, count));
         let free = (1.0 - leverage).max(0.0);
         let scatter = &scatters.responses[*response];
-        let s = scatter.relative * u[index] * free.sqrt();
+        let s = match spreads.get_mut(*response).and_then(Iterator::next) {
+            Some(spread) => spread,
+            None => scatter.relative * u[index] * free.sqrt(),
+        };
         let residual = solution.residuals[index];
         residuals.push(Residual {
             point: *point,

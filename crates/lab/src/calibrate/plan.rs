@@ -1,11 +1,11 @@
 //! What a schedule would tell, before anything is measured.
 
-use super::calibration::{Figures, aliases, figures};
-use super::campaign::Campaign;
+use super::calibration::{Figures, aliases, beside_known_values, figures};
+use super::campaign::{Campaign, Weights};
 use super::causes::causes;
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability};
-use super::scatter::{Scatters, stated_u};
+use super::scatter::{Scatters, stated_u, weights};
 use super::stack::{Readings, Row, Stack};
 use super::trouble::Trouble;
 
@@ -77,18 +77,21 @@ pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
     })
 }
 
-/// What each row would scatter by: its stated errors, if all have them, else all alike.
+/// The standard uncertainties by which the fit of the readings will weight them: the plan is that of the estimator which the file asks
+/// for, and not of a better one. All alike where not all have a stated error, of which nothing can be told before.
 fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
-    let parameters = &stack.campaign.experiment.parameters;
-    let of_row = |(row, stated): (&Row, f64)| match row {
-        Row::Reading { .. } => stated,
-        Row::Prior { parameter } => parameters[*parameter].known.map_or(1.0, |p| p.u),
-    };
-    let rows = stack.rows.iter().zip(stated_u(stack));
-    let u: Vec<f64> = rows.map(of_row).collect();
-    if u.iter().all(|u| *u > 0.0) {
-        u
-    } else {
-        vec![1.0; u.len()]
+    let alike = || vec![1.0; stack.rows.len()];
+    let is_reading = |row: &Row| matches!(row, Row::Reading { .. });
+    let mut stated = stack.rows.iter().zip(stated_u(stack));
+    if stated.any(|(row, u)| is_reading(row) && u <= 0.0) {
+        return alike();
+    }
+    match (weights(stack), stack.campaign.weights) {
+        // What is known of parameters counts by its own u, beside readings that count by that which they have in the mean.
+        (Ok(u), Weights::Equal) if !stack.rows.iter().all(is_reading) => {
+            beside_known_values(stack, u)
+        }
+        (Ok(u), _) => u,
+        (Err(_), _) => alike(),
     }
 }

@@ -12,6 +12,7 @@ pub struct Residual {
     pub observed: f64,
     /// What the equation gives.
     pub fitted: f64,
-    /// Their difference over its standard deviation, s·√(1 − h); NaN where that is zero.
+    /// Their difference over its standard deviation, s·√(1 − h), or that of this reading where readings are known to scatter
+    /// differently; NaN where that is zero.
     pub standardised: f64,
 }

@@ -10,7 +10,8 @@ use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Code, Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::{Amount, Stated};
-use gumption_gum::budget::quantities;
+use gumption_gum::budget::faults::RELATIVE_UNCLEAR;
+use gumption_gum::budget::quantities::{self, is_unclear_share};
 
 /// What all checks share.
 pub(crate) struct Checker<'s> {
@@ -155,7 +156,31 @@ impl<'s> Checker<'s> {
 
     /// A positive amount in the unit of differences: 0.05 °C is no point on the scale here.
     pub fn spread(&mut self, stated: &Stated<Amount>, unit: &Unit) -> Option<f64> {
-        let value = self.converted(stated, &unit.difference(), Unit::difference)?;
+        let unit = unit.difference();
+        let value = self.converted(stated, &unit, Unit::difference)?;
+        let own = stated.value.unit.as_ref();
+        let own = own.and_then(|(text, _)| self.units.parse(text).ok());
+        // In the unit of the quantity itself there is nothing to ask of what is the same for all rows.
+        let unclear = |own: &Unit| own.symbol != unit.symbol && is_unclear_share(own, &unit);
+        if let Some(own) = own.filter(unclear) {
+            let number = stated.value.number;
+            let within = match unit.is_one() {
+                true => Said::default(),
+                false => say!(" (in {})", unit.symbol),
+            };
+            let message = say!(
+                "{number} {} may be meant of a value or as it stands",
+                own.symbol
+            );
+            return self.refuse(
+                Fault::new(RELATIVE_UNCLEAR, stated.span.clone(), message)
+                    .label(say!("relative or absolute?"))
+                    .help(say!(
+                        "as it stands, write the plain number {value}{within}; of a value, write what {number} {} of it is",
+                        own.symbol
+                    )),
+            );
+        }
         if value > 0.0 {
             return Some(value);
         }

@@ -225,10 +225,9 @@ fn scope_of_source(checker: &Checker<'_>, name: &str) -> Scope {
 /// Readings have errors of their own unless the file says otherwise, inputs have one in common.
 fn scope_of(one: &Known<'_>) -> Scope {
     let table = &one.entry.value;
-    let unstated = if one.is_reading {
-        Scope::Each
-    } else {
-        Scope::Common
+    let unstated = match one.is_reading && !one.is_common() {
+        true => Scope::Each,
+        false => Scope::Common,
     };
     stated_scope(table.by.as_deref(), table.scope.as_deref()).unwrap_or(unstated)
 }

@@ -51,6 +51,7 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
             return None;
         }
     };
+    refuse_moved_readings(checker, &stated, &known);
     let mut doubts = Doubts {
         inputs: Vec::new(),
         doubts: Vec::new(),
@@ -124,8 +125,7 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
     for one in known {
         let key = &one.entry.key;
         let unit = Some(Box::new(at(one.unit.symbol.clone(), key)));
-        // An error is zero, but one that is a part of what is read is checked for a reading of 1, and grows with it.
-        let number = f64::from(one.is_part_of_reading(&checker.units));
+        let number = unstated(checker, one);
         let unstated = Amount { number, unit: None };
         let value = one.table().value.clone();
         let value = value.or_else(|| Some(Box::new(at(unstated, key))));
@@ -155,6 +155,49 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
         source: Some(Box::new(at(Sources(named(shared(checker))), &(0..0)))),
         correlation: correlation(checker, known),
         ..FileTable::default()
+    }
+}
+
+/// The value of a quantity of which none is stated. An error is zero, but one that is a part of what is read is checked for a
+/// reading of 1, and grows with it.
+fn unstated(checker: &Checker<'_>, one: &Known<'_>) -> f64 {
+    f64::from(one.is_part_of_reading(&checker.units))
+}
+
+/// Errors of readings have the expectation zero: nothing is added to what was read. One that has another is a correction, which is
+/// an input of the equations.
+fn refuse_moved_readings(checker: &mut Checker<'_>, stated: &Quantities, known: &[Known<'_>]) {
+    for one in known.iter().filter(|one| one.is_reading) {
+        let (zero, estimate) = (unstated(checker, one), value_of(stated, one));
+        if estimate == zero {
+            continue;
+        }
+        let (name, unit) = (one.name, one.unit.difference());
+        let moved = match one.is_part_of_reading(&checker.units) {
+            true => say!("{} of each reading", plain(estimate - zero)),
+            false => Said::quoted(with_unit(estimate, &unit)),
+        };
+        let message = say!("the expectation of an error of the readings of {name} is {moved}");
+        checker.faults.push(
+            Fault::new(KEY, one.place_of_location(), message)
+                .label(say!("expected an error of expectation 0"))
+                .help(say!(
+                    "state limits that lie symmetrically, half_width = …; or make the error an input of the equations, {name} = … + e_{name}, with these limits and scope = \"each\" (or \"common\") below [input.e_{name}]"
+                )),
+        );
+    }
+}
+
+/// Without the digits that a difference of larger numbers leaves of rounding.
+fn plain(number: f64) -> f64 {
+    format!("{number:.9e}").parse().unwrap_or(number)
+}
+
+fn with_unit(number: f64, unit: &Unit) -> String {
+    let number = plain(number);
+    match unit.is_one() {
+        true => number.to_string(),
+        false => format!("{number} {}", unit.symbol),
     }
 }
 

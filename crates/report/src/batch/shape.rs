@@ -4,6 +4,7 @@ use crate::rows::{self, Head};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
+use gumption_gum::budget::faults::SERIES;
 use gumption_gum::budget::{BatchFile, Budget};
 
 /// What the lines hold beside what is reported.
@@ -35,8 +36,13 @@ pub(super) fn nothing() -> Vec<Head> {
     ["label", "error"].map(Head::texts).to_vec()
 }
 
-/// Why a row with these columns has no place below the heads of a table.
-pub(super) fn misfit(found: &[Head], heads: &[Head]) -> Said {
+/// Why a row with these columns has no place below the heads of a table, with the code of the fault.
+pub(super) fn misfit(found: &[Head], heads: &[Head], language: Language) -> String {
+    let why = other_columns(found, heads).in_language(language);
+    format!("{}: {why}", SERIES.id)
+}
+
+fn other_columns(found: &[Head], heads: &[Head]) -> Said {
     let without = |one: &[Head], other: &[Head]| {
         let mut missing = one.iter().filter(|head| !other.contains(head));
         missing.next().map(|head| head.name.clone())

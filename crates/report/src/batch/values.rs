@@ -154,7 +154,7 @@ impl Stretch {
         errors.resize(count.rows as usize, String::new());
         for error in errors.iter_mut().filter(|error| error.is_empty()) {
             // A component less, a vector of another length, an assessment more.
-            *error = misfit(own, heads).in_language(language);
+            *error = misfit(own, heads, language);
         }
         columns.truncate(1);
         columns.extend(heads[2..].iter().map(ResultColumn::below));

@@ -7,9 +7,9 @@ use crate::language::Language;
 use gumption_core::quantity::Unit;
 use gumption_format::machine::{self, Machine, Number, all, form};
 use gumption_lab::calibrate::{
-    Alias, Apart, Calibration, Campaign, Cause, Coefficient, Combination, Contribution, Figures,
-    Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Pattern, PatternTest, Plan,
-    Residual, ResponseScatter, Scatter, ScatterTest,
+    Alias, Apart, Calibration, Campaign, Cause, Coefficient, Combination, Contradicted,
+    Contribution, Figures, Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Pattern,
+    PatternTest, Plan, Residual, ResponseScatter, Scatter, ScatterTest,
 };
 use gumption_lab::experiment::{Scope, Words};
 use gumption_lab::recording::Finding;
@@ -37,6 +37,8 @@ form! {
         reversed: &'a [String] = &found.reversed,
         /// Points that stand apart from all others.
         apart: Vec<ApartForm<'a>> = all(&found.apart, |one| ApartForm::of(one, l)),
+        /// Parameters of which the readings say something else than what is stated of them.
+        contradicted: Vec<ContradictedForm<'a>> = all(&found.contradicted, ContradictedForm::of),
         /// Values at which readings stay that should differ.
         limits: Vec<LimitForm<'a>> = all(&found.limits, |one| LimitForm::of(one, l)),
         /// Responses whose residuals are no scatter.
@@ -282,6 +284,22 @@ form! {
         /// Its residual over the standard deviation that those of the others give it.
         t: Number = Number(one.t),
         /// Probability that the largest residual is as far out.
+        p_value: Number = Number(one.p_value),
+    }
+
+    /// A parameter of which the readings say something else than what is stated of it.
+    ContradictedForm<'a> of (one: &'a Contradicted) {
+        /// Its name.
+        parameter: &'a str = &one.parameter,
+        /// What is stated of it.
+        stated: Number = Number(one.stated[0]),
+        /// Its standard uncertainty.
+        u_stated: Number = Number(one.stated[1]),
+        /// What the readings give without that.
+        found: Number = Number(one.found[0]),
+        /// Its standard uncertainty.
+        u_found: Number = Number(one.found[1]),
+        /// Probability of a difference as large, of all such parameters together.
         p_value: Number = Number(one.p_value),
     }
 

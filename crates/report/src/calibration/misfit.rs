@@ -13,8 +13,8 @@ use gumption_format::document::{
     Table,
 };
 use gumption_lab::calibrate::{
-    Apart, Calibration, Campaign, Limit, Misfit, Part, Pattern, PatternTest, Residual,
-    ResponseScatter, Scatter, ScatterTest,
+    Apart, Calibration, Campaign, Contradicted, Limit, Misfit, Part, Pattern, PatternTest,
+    Residual, ResponseScatter, Scatter, ScatterTest,
 };
 use gumption_lab::experiment::Words;
 
@@ -218,6 +218,20 @@ fn stands_apart(one: &Apart, l: Language) -> String {
     say!("{response} in {point} stands apart: its residual is {times} times the standard deviation that the others give it. Find out why before using these figures: a wrong reading, a wrong label, or something that the equations leave out.").in_language(l)
 }
 
+/// A parameter of which the readings say something else than the file.
+fn contradicted(campaign: &Campaign, one: &Contradicted, l: Language) -> String {
+    let name = &one.parameter;
+    let mut parameters = campaign.experiment.parameters.iter();
+    let own = parameters.find(|other| other.name == *name);
+    let unit = own.map_or(String::new(), |own| symbol(&own.unit));
+    let u = [one.stated[1], one.found[1]];
+    let shown = |[value, u]: [f64; 2]| with_unit(&aligned(value, u, DIGITS), &unit);
+    let [stated, found] = [shown(one.stated), shown(one.found)];
+    let [u_stated, u_found] = u.map(|u| with_unit(&significant(u, DIGITS), &unit));
+    let times = significant((one.stated[0] - one.found[0]).abs() / u[0].hypot(u[1]), 2);
+    say!("{name} is stated as {stated} with u = {u_stated}, and the readings without that give {found} with u = {u_found}: the difference is {times} times its standard uncertainty. What is stated, the readings or the equations are wrong; the figures above are neither the one nor the other, and their scatter has the difference in it.").in_language(l)
+}
+
 /// Residuals that are no scatter.
 fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
     let (response, p) = (&one.response, p_of(one.p_value));
@@ -290,8 +304,9 @@ pub(super) fn codes(campaign: &Campaign, found: &Calibration) -> String {
 /// What is doubtful in a recording, each with its code.
 fn of_recording(campaign: &Campaign, l: Language) -> Vec<(&'static str, String)> {
     let findings = campaign.points.findings.iter().map(|finding| {
-        let text = say!("{}; {}.", finding.said(), finding.mend());
-        ("recording", text.in_language(l))
+        let [said, mend] = [finding.said(), finding.mend()].map(|text| text.in_language(l));
+        let (between, end) = (l.semicolon(), l.pick(".", "。"));
+        ("recording", format!("{said}{between}{mend}{end}"))
     });
     findings.collect()
 }
@@ -312,6 +327,9 @@ fn of_fit(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<(&'stati
     items.extend(reversed(&found.reversed, l).map(coded("reversed")));
     let apart = found.apart.iter().map(|one| stands_apart(one, l));
     items.extend(apart.map(coded("apart")));
+    let known = found.contradicted.iter();
+    let known = known.map(|one| contradicted(campaign, one, l));
+    items.extend(known.map(coded("contradicted")));
     let limits = found.limits.iter().map(|limit| at_limit(limit, l));
     items.extend(limits.map(coded("saturated")));
     let patterns = found

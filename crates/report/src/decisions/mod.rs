@@ -57,6 +57,10 @@ pub(super) fn decided<'a>(report: &'a Report<'a>, measurand: usize) -> Vec<Decid
     decided.collect()
 }
 
+/// An effect whose result is above the decision threshold, and one whose result is not, for machines.
+pub(super) const RECOGNISED: &str = "recognised";
+pub(super) const NOT_RECOGNISED: &str = "not_recognised";
+
 /// Stable name of a verdict for machines.
 pub(super) fn verdict_code(verdict: Verdict) -> &'static str {
     match verdict {

@@ -43,7 +43,7 @@ const WORDS = {
     toText: "转到文本", certificate: "证书", noCertificate: "不加数据", newCertificate: "新建数据…",
     certificateName: "证书编号、日期、实验室、委托方、样品与签字人，待填写。文件叫什么名字？", file: "文件", new: "新建…", save: "保存", drop: "审核表格、加入记录…",
     download: "下载", language: "语言", text: "评定文件", result: "结果", stop: "停止",
-    recording: "记录", calibrate: "校准", plan: "方案", diagnose: "诊断", whatIf: "如果……", input: "输入量",
+    recording: "记录", calibrate: "校准", plan: "方案", diagnose: "诊断", whatIf: "假设分析", input: "输入量",
     value: "估计值", factor: "u 的倍数", cost: "u 减半的代价", reset: "恢复为文本所述", require: "需要什么条件？", back: "返回结果",
     name: "名称", cancel: "取消", choose: "格式…", none: "这里还没有评定文件：“新建…”可写出一个作为起点。",
     saved: "已保存。", unsaved: "尚未保存。", computing: "正在计算…", ready: ms => `${ms} ms。`,

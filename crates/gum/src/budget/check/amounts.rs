@@ -43,12 +43,12 @@ fn share_of(unit: &str) -> Option<Said> {
 }
 
 /// Whether a quantity in this unit is itself such a ratio, so that `2 %` of it has two meanings.
-pub(super) fn is_in_ratios(unit: &Unit) -> bool {
+pub(in crate::budget) fn is_in_ratios(unit: &Unit) -> bool {
     unit.dimension.is_none() && (is_ratio(&unit.symbol) || unit.symbol.starts_with('%'))
 }
 
 /// Whether a unit is a share of something, % or ppm, that does not say of what.
-pub(super) fn is_bare_ratio(unit: &Unit) -> bool {
+pub(in crate::budget) fn is_bare_ratio(unit: &Unit) -> bool {
     unit.dimension.is_none() && is_ratio(&unit.symbol) && !unit.symbol.contains('/')
 }
 

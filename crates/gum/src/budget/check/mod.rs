@@ -51,6 +51,7 @@ use super::checked::Quantities;
 use super::dcc;
 use super::tables::FileTable;
 use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
+pub(super) use amounts::{is_bare_ratio, is_in_ratios};
 pub(super) use checker::Origin;
 use checker::{Checker, Source};
 use entries::{entries, shared};

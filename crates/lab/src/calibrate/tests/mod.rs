@@ -7,6 +7,7 @@ mod pattern;
 mod refusals;
 mod shares;
 mod simulations;
+mod stated;
 
 use super::{Campaign, read};
 use crate::experiment::Purpose;

@@ -16,6 +16,7 @@ mod points;
 mod reports;
 mod several;
 mod stated;
+mod side_by_side;
 mod statements;
 mod strangers;
 mod workbooks;

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE};
 use crate::printed::{Printed, leading};
 
+use super::conditions;
 use super::factor::is_factor;
 use super::family::NU_EFF;
 use super::footer::{self, Whole};
@@ -234,7 +235,11 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
     };
     let lines = claimed.words.lines().filter(is_of_whole);
     let lines = lines.filter(|line| !is_of_other_k(line));
-    let mut levels = lines.filter_map(|line| probability(&line.to_lowercase()));
+    // `U at 50 % load`: a point, and no probability.
+    let mut levels = lines.filter_map(|line| {
+        let at_point = conditions::without_point(line);
+        probability(&at_point.to_lowercase())
+    });
     levels.next().filter(|level| !USUAL.contains(level))
 }
 

@@ -215,6 +215,16 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
                 role,
             });
             return;
+            // What is called U and has another figure than k, but none that is understood, is told.
+            let is_lost = footer::label(&line.text, "") == Some(footer::Whole::Expanded)
+                && claimed.footer.expanded.is_none()
+                && footer::has_other_figure(&line.text);
+            if is_lost {
+                claimed.unplaced.push(Unplaced {
+                    at: line.at,
+                    text: line.text.clone(),
+                });
+            }
         }
     }
     if let Some(row) = about {

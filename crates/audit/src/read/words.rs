@@ -505,7 +505,7 @@ fn unit_in(lower: &str, whole: &str) -> String {
     }
     let end = lower.find(|c: char| {
         c.is_whitespace()
-            || ",;)(=。、".contains(c)
+            || ",;:)(=。、".contains(c)
             || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');

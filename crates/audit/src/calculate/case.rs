@@ -296,6 +296,7 @@ fn line(claimed: &Claimed, row: &Row, slope: Option<Slope>) -> Line {
     let dof = if open {
         given.unwrap_or(stated_dof)
     } else {
+        .or_else(|| shown_coefficient(claimed, row))
         stated_dof
     };
     Line {
@@ -343,6 +344,15 @@ fn to_y_of_model(claimed: &Claimed, row: &Row, slope: Slope) -> f64 {
 
 /// From the unit of c·u to that of the result, where units are written that say so.
 fn to_y(claimed: &Claimed, row: &Row) -> f64 {
+/// The coefficient that the contribution of a row shows, where the sheet states none and no factor leads from the unit of u to that of
+/// the result.
+fn shown_coefficient(claimed: &Claimed, row: &Row) -> Option<f64> {
+    let (u, made) = (row.u.as_ref()?, row.contribution.as_ref()?);
+    let ratio = (made.value / u.value).abs();
+    let is_shown = ratio.is_finite() && units::leads_nowhere(&row.unit, &claimed.unit);
+    is_shown.then_some(ratio)
+}
+
     let y_unit = claimed.unit.as_str();
     if y_unit.is_empty() {
         return 1.0;

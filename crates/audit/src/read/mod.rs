@@ -476,7 +476,8 @@ fn unread_cells(raw: &[table::Raw]) -> Vec<Unplaced> {
     let mut unread: Vec<Unplaced> = Vec::new();
     let cells = |raw: &table::Raw| {
         let row = &raw.row;
-        [row.unread_unit.clone(), row.unread_distribution.clone()]
+        let unread = [&row.unread_unit, &row.unread_distribution, &row.unread_c];
+        unread.map(Clone::clone)
     };
     for cell in raw.iter().flat_map(cells).flatten() {
         if unread.iter().all(|known| known.text != cell.text) {

@@ -22,6 +22,7 @@ mod statements;
 mod strangers;
 mod workbooks;
 
+mod written_out;
 use crate::claim::Claimed;
 use crate::read::Mapping;
 use crate::{Audit, Verdict, audit, budget_files, read, sheet};

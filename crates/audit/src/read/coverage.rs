@@ -119,7 +119,16 @@ pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
     let lower = text.to_lowercase();
     let is_reason = has(
         &lower,
-        &["dominat", "fixed", "占优", "主导", "约定值", "固定"],
+        &[
+            "dominat",
+            "fixed",
+            "占优",
+            "主导",
+            "约定值",
+            "固定",
+            "梯形",
+            "trapez",
+        ],
     );
     let k = figure_after(&lower, &["k"]).filter(|k| is_reason && is_factor(k.value));
     if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {

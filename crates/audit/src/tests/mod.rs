@@ -16,13 +16,14 @@ mod others;
 mod points;
 mod reports;
 mod several;
-mod stated;
 mod side_by_side;
+mod stated;
 mod statements;
 mod strangers;
+mod unjudged;
 mod workbooks;
-
 mod written_out;
+
 use crate::claim::Claimed;
 use crate::read::Mapping;
 use crate::{Audit, Verdict, audit, budget_files, read, sheet};

@@ -64,7 +64,10 @@ impl Printed {
     pub fn parse(text: &str) -> Option<Printed> {
         let clean = clean(text);
         let (mut figure, rest) = leading(&clean)?;
-        figure.unit = unit_behind(rest)?.to_string();
+        figure.unit = match inverse_behind(rest) {
+            Some(unit) => format!("1/{unit}"),
+            None => unit_behind(rest)?.to_string(),
+        };
         figure.text = text.trim().to_string();
         Some(figure)
     }
@@ -404,6 +407,14 @@ fn power_of_ten(text: &str) -> (i32, &str) {
         }
         None => none,
     }
+}
+
+/// The unit of which a figure has the inverse: `°C` of `0.58×10^-6 /°C`.
+fn inverse_behind(rest: &str) -> Option<&str> {
+    let unit = rest.trim().strip_prefix('/')?.trim_start();
+    let is_name = unit.starts_with(|c: char| c.is_alphabetic() || c == '°');
+    let is_short = unit.chars().count() <= 4 && !unit.contains([' ', '/', '=', ',', ';', ':']);
+    (is_name && is_short).then_some(unit)
 }
 
 /// The text behind a figure as a unit; `None` where it is none, so that `3 readings of …` is no figure.

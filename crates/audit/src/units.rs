@@ -99,6 +99,12 @@ pub(crate) fn factor(from: &str, to: &str) -> Option<f64> {
     Some(conversion.apply(1.0) - conversion.apply(0.0))
 }
 
+/// Whether both units are known and no factor leads from one to the other.
+pub(crate) fn leads_nowhere(from: &str, to: &str) -> bool {
+    let are_known = parse(from).is_some() && parse(to).is_some();
+    are_known && factor(from, to).is_none()
+}
+
 /// The power of ten that stands where a unit would, in a head or behind a figure: 10⁻⁶ for `×10⁻⁶`.
 pub(crate) fn power_of_ten(text: &str) -> Option<f64> {
     let text = crate::printed::clean(text);

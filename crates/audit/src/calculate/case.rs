@@ -193,20 +193,55 @@ fn usual_factors(claimed: &Claimed) -> Vec<Factor> {
     let two = Some(2.0).filter(|_| !claims_too_much_of_two(claimed));
     let fixed = stated.into_iter().chain(two).map(Factor::Fixed);
     let looked_up = levels.map(Factor::StudentT);
+    let own = as_stated(claimed).map(Factor::Fixed);
     match looks_up(claimed) {
-        true => looked_up.chain(fixed).collect(),
-        false => fixed.chain(looked_up).collect(),
+        true => looked_up.chain(fixed).chain(own).collect(),
+        false => fixed.chain(looked_up).chain(own).collect(),
     }
+}
+
+/// The factor that a sheet states without a rule, where it has no degrees of freedom by which that could be judged, and U is the product:
+/// 1.83 of two rectangles (EA-4/02 M:2022, S10), 2.13 of readings that nobody counts.
+fn as_stated(claimed: &Claimed) -> Option<f64> {
+    let footer = &claimed.footer;
+    let k = footer
+        .k
+        .as_ref()
+        .filter(|k| k.value > 1.0 && k.value < 5.0)?;
+    let (expanded, u_c) = footer.expanded.as_ref().zip(footer.u_c.as_ref())?;
+    let open = 2.0 * expanded.half_of_digits() + k.value * u_c.half_of_digits();
+    let is_product = (expanded.value - k.value * u_c.value).abs() <= open;
+    let is_few = |row: &Row| {
+        let stated = row.stated.standard().map(|(_, dof)| dof);
+        let dof = row.dof.as_ref().map(|dof| dof.value).or(stated);
+        dof.is_some_and(f64::is_finite)
+    };
+    let is_judged = footer.nu_eff.is_some() || claimed.rows.iter().any(is_few);
+    (is_product && !is_judged).then_some(k.value)
 }
 
 /// Whether a sheet states a probability of about 95 % for its U or k, and degrees of freedom at which k = 2 does not have it:
 /// fewer than ten (rule 39; EA-4/02 M:2022, annex E; JCGM 100, G.6.6, which asks for more than ten). A laboratory that states
 /// k = 2 and no probability claims nothing that would be wrong.
 fn claims_too_much_of_two(claimed: &Claimed) -> bool {
+    let states_none = |line: &str| {
+        let lower = line.to_lowercase();
+        SAYS_NONE.iter().any(|words| lower.contains(words))
+    };
+    if claimed.words.lines().any(states_none) {
+        return false;
+    }
     let nu = claimed.footer.nu_eff.as_ref();
     let is_few = nu.is_some_and(|nu| nu.value + nu.half < FEW_DEGREES);
     is_few && states_usual_level(&claimed.words)
 }
+
+/// How a sheet says that its factor has no probability.
+const SAYS_NONE: [&str; 3] = [
+    "no probability stated",
+    "no coverage probability",
+    "不注明包含概率",
+];
 
 /// Degrees of freedom below which k = 2 is too small for 95 %.
 const FEW_DEGREES: f64 = 10.0;
@@ -261,6 +296,7 @@ fn line(claimed: &Claimed, row: &Row, slope: Option<Slope>) -> Line {
     );
     let mut c = derivative
         .or(row.c.as_ref().map(|c| c.value))
+        .or_else(|| shown_coefficient(claimed, row))
         .unwrap_or(1.0);
     let mut rest = to_y;
     // A sheet may have its coefficients for contributions in another unit than the result, and say it or not.
@@ -306,6 +342,15 @@ fn line(claimed: &Claimed, row: &Row, slope: Option<Slope>) -> Line {
         counted: row.not_counted.is_none(),
         typed: None,
     }
+}
+
+/// The coefficient that the contribution of a row shows, where the sheet states none and no factor leads from the unit of u to that of
+/// the result.
+fn shown_coefficient(claimed: &Claimed, row: &Row) -> Option<f64> {
+    let (u, made) = (row.u.as_ref()?, row.contribution.as_ref()?);
+    let ratio = (made.value / u.value).abs();
+    let is_shown = ratio.is_finite() && units::leads_nowhere(&row.unit, &claimed.unit);
+    is_shown.then_some(ratio)
 }
 
 /// The step of an indication whose readings are all equal.

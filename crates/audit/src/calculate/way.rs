@@ -1,20 +1,21 @@
 //! Rows from which nothing leads to the result: c_i is neither stated nor given by a model (JCGM 100, 5.1.3).
 
 use crate::claim::{Claimed, Row};
-use crate::units;
+use crate::units::leads_nowhere;
 
 use super::case::Case;
 
 impl Case<'_> {
     /// Rows in the unit of another quantity than the result, of which the sheet states neither a coefficient nor a contribution,
-    /// and which no model has.
+    /// and which no model has; and those with a coefficient that is not understood.
     pub fn without_way(&self) -> Vec<usize> {
         if self.derivatives.is_some() {
             return Vec::new();
         }
         let target = target(self.claimed);
         let rows = self.claimed.rows.iter().enumerate();
-        let open = rows.filter(|(_, row)| is_open(row) && leads_nowhere(&row.unit, target));
+        let is_unknown = |row: &Row| row.unread_c.is_some() || leads_nowhere(&row.unit, target);
+        let open = rows.filter(|(_, row)| is_open(row) && is_unknown(row));
         open.map(|(i, _)| i).collect()
     }
 }
@@ -28,12 +29,6 @@ fn target(claimed: &Claimed) -> &str {
 
 fn is_open(row: &Row) -> bool {
     row.not_counted.is_none() && row.c.is_none() && row.contribution.is_none()
-}
-
-/// Whether both units are known and no factor leads from one to the other.
-fn leads_nowhere(from: &str, to: &str) -> bool {
-    let are_known = units::parse(from).is_some() && units::parse(to).is_some();
-    are_known && units::factor(from, to).is_none()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE};
 use crate::printed::{Printed, leading};
 
+use super::conditions;
 use super::factor::is_factor;
 use super::family::NU_EFF;
 use super::footer::{self, Whole};
@@ -118,7 +119,16 @@ pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
     let lower = text.to_lowercase();
     let is_reason = has(
         &lower,
-        &["dominat", "fixed", "占优", "主导", "约定值", "固定"],
+        &[
+            "dominat",
+            "fixed",
+            "占优",
+            "主导",
+            "约定值",
+            "固定",
+            "梯形",
+            "trapez",
+        ],
     );
     let k = figure_after(&lower, &["k"]).filter(|k| is_reason && is_factor(k.value));
     if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {
@@ -234,7 +244,11 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
     };
     let lines = claimed.words.lines().filter(is_of_whole);
     let lines = lines.filter(|line| !is_of_other_k(line));
-    let mut levels = lines.filter_map(|line| probability(&line.to_lowercase()));
+    // `U at 50 % load`: a point, and no probability.
+    let mut levels = lines.filter_map(|line| {
+        let at_point = conditions::without_point(line);
+        probability(&at_point.to_lowercase())
+    });
     levels.next().filter(|level| !USUAL.contains(level))
 }
 

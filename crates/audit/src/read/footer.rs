@@ -5,6 +5,7 @@ use gumption_core::letters::is_chinese;
 use crate::claim::Footer;
 use crate::printed::{Place, Printed, leading};
 
+use super::conditions;
 use super::factor::{is_factor, is_fixed};
 use super::family::{FACTOR, NU_EFF};
 use super::statement;
@@ -47,7 +48,7 @@ const WORDS: &[(Whole, &[&str])] = &[
     (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "deg. of freedom (eff"]),
     (Whole::Freedom, NU_EFF),
     (Whole::Factor, &["coverage factor", "erweiterungsfaktor", "facteur d'élargissement", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
-    (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded", "erweitert"]),
+    (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded", "erweitert", "扩展"]),
     (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "合成uc", "合成u_c", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "root sum square", "root-sum-square", "rss", "comb. std", "comb. unc", "gesamtstandard", "beigeordnete standard", "combined", "kombiniert", "total standard uncertainty"]),
     (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
 ];
@@ -152,6 +153,11 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if is_capital_result(text, measurand) {
         return Some(Whole::Y);
     }
+    let own = conditions::without_point(text);
+    let text = own.as_ref();
+    if let Some(whole) = by_factor(text) {
+        return Some(whole);
+    }
     if let Some(whole) = symbol(text) {
         return Some(whole);
     }
@@ -164,6 +170,9 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     }
     if is_named_u_c(&lower) {
         return Some(Whole::Combined);
+    }
+    if let Some(whole) = named_as_result(text) {
+        return Some(whole);
     }
     // `Sum u(m_X)`, `Total u`, `Total u_c`; `Total type A` of a block.
     let total = ["sum ", "sum of ", "total ", "total of ", "合计 "]
@@ -217,24 +226,93 @@ fn is_named_u_c(lower: &str) -> bool {
     })
 }
 
+/// u_c and U behind the word that calls them those of the result: `Result U (k = 2)`, `结果 u_c`.
+fn named_as_result(text: &str) -> Option<Whole> {
+    const RESULTS: [&str; 8] = [
+        "result",
+        "final result",
+        "final",
+        "reported",
+        "ergebnis",
+        "résultat",
+        "结果",
+        "测量结果",
+    ];
+    let (name, symbol) = without_condition(text).trim().rsplit_once(' ')?;
+    let is_result = RESULTS.contains(&name.trim().to_lowercase().as_str());
+    match symbol {
+        "U" | "U95" | "U_95" => is_result.then_some(Whole::Expanded),
+        "u_c" | "uc" => is_result.then_some(Whole::Combined),
+        _ => None,
+    }
+}
+
+/// What an uncertainty is called that nothing else is said of.
+const BARE: [&str; 10] = [
+    "uncertainty",
+    "measurement uncertainty",
+    "total uncertainty",
+    "overall uncertainty",
+    "mu",
+    "messunsicherheit",
+    "incertitude",
+    "incertidumbre",
+    "不确定度",
+    "测量不确定度",
+];
+
+/// What the factor behind a bare name makes of it: `u (k = 1)` and `Uncertainty (1 sigma)` are standard uncertainties, `u (k = 2)`,
+/// `Uncertainty (2 sigma)` and `2u` expanded ones.
+fn by_factor(text: &str) -> Option<Whole> {
+    if multiple_alone(text).is_some() {
+        return Some(Whole::Expanded);
+    }
+    let is_bare = |name: &str| name == "u" || BARE.contains(&name.to_lowercase().as_str());
+    let of = |k: f64| match k == 1.0 {
+        true => Whole::Combined,
+        false => Whole::Expanded,
+    };
+    if let Some((k, name)) = conditions::multiple(text) {
+        return is_bare(&name).then(|| of(k.value));
+    }
+    let name = without_condition(text).trim();
+    let is_open = name.len() == text.trim().len() || !is_bare(name);
+    let k = (!is_open).then(|| super::words::figure_after(text, &["k"]))??;
+    (k.value == 1.0 || is_factor(k.value)).then(|| of(k.value))
+}
+
+/// The factor of a label that is nothing but a multiple of u: `2u`, `2·u_c`.
+pub(super) fn multiple_alone(text: &str) -> Option<Printed> {
+    let (factor, behind) = leading(text.trim())?;
+    let name = behind.trim_start_matches([' ', '·', '×', '*', '⋅']);
+    let is_joined = name.len() < behind.len() && !behind.trim_start().starts_with('u')
+        || name.len() == behind.len();
+    let is_u = matches!(name, "u" | "uc" | "u_c" | "u(y)" | "u_c(y)");
+    (is_factor(factor.value) && is_u && is_joined).then_some(factor)
+}
+
+/// Whether a label calls an uncertainty a total, which is U alone, and u_c above a U that is stated below it.
+pub(super) fn is_total(label: &str) -> bool {
+    let name = without_condition(label).trim();
+    name.len() == label.trim().len()
+        && matches!(
+            name,
+            "总不确定度" | "Total uncertainty" | "Overall uncertainty"
+        )
+}
+
+/// Whether a text has a figure beside those of points, coverage factor and probability.
+pub(super) fn has_other_figure(text: &str) -> bool {
+    let own = conditions::without_point(text);
+    conditions::without_coverage(&own).contains(|c: char| c.is_ascii_digit())
+}
+
 /// Whether a text in small letters is nothing but `uncertainty` with a factor, `Messunsicherheit (k=2)`, which makes it expanded.
 fn is_expanded_by_factor(lower: &str) -> bool {
-    const NAMES: [&str; 10] = [
-        "uncertainty",
-        "measurement uncertainty",
-        "total uncertainty",
-        "overall uncertainty",
-        "mu",
-        "messunsicherheit",
-        "incertitude",
-        "incertidumbre",
-        "不确定度",
-        "测量不确定度",
-    ];
     let name = without_condition(lower).trim();
     let factor = super::words::figure_after(lower, &["k"]);
     let is_one = |k: &Printed| k.value == 1.0;
-    name.len() < lower.trim().len() && NAMES.contains(&name) && !factor.is_some_and(|k| is_one(&k))
+    name.len() < lower.trim().len() && BARE.contains(&name) && !factor.is_some_and(|k| is_one(&k))
 }
 
 /// Whether what stands below u_c is called as an expanded uncertainty may be: it names an uncertainty, U, its factor, or a multiple of
@@ -252,6 +330,10 @@ pub fn may_be_expanded(text: &str) -> bool {
 
 /// The coverage factor that the label of U names in words: `Expanded uncertainty, coverage factor 3`.
 pub fn factor_of_label(text: &str) -> Option<Printed> {
+    let multiple = conditions::multiple(text).map(|(k, _)| k);
+    if let Some(factor) = multiple_alone(text).or(multiple) {
+        return is_factor(factor.value).then_some(factor);
+    }
     let of_factor = WORDS.iter().find(|(whole, _)| *whole == Whole::Factor);
     let (_, keys) = of_factor?;
     let figure = super::words::figure_after(text, keys)?;
@@ -319,14 +401,23 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         let is_met = |y: &Printed| figure.is_met_within(y.value, figure.half.max(y.half));
         name == measurand && y.as_ref().is_some_and(is_met)
     };
+    // `U at 10 V, k = 2: 61 µV`: between a name and its figure may stand under which conditions it holds.
+    let at_point = conditions::without_point(text);
+    let bare = conditions::without_coverage(&at_point);
     for (whole, names) in NAMES {
+        let text = match whole {
+            Whole::Combined | Whole::Expanded => bare.as_ref(),
+            _ => text,
+        };
         for name in *names {
             if let Some(figure) = assigned(text, name).filter(|figure| !is_result(name, figure)) {
                 take(*whole, figure);
             }
         }
     }
+    let of_name = || conditions::multiple(text).map(|(k, _)| k);
     let factor = multiple_of_u(text).or_else(|| factor_of_product(text, measurand));
+    let factor = factor.or_else(|| of_name().filter(|k| is_factor(k.value)));
     if let Some(factor) = &factor {
         take(Whole::Factor, factor.clone());
     }
@@ -340,7 +431,7 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         take(Whole::Expanded, reported.clone());
         stated = Some(reported.at(at));
     }
-    let text = &absolute(text);
+    let (text, bare) = (&absolute(text), absolute(&bare));
     let lower = text.to_lowercase();
     let is_claim = |whole: Whole| match whole {
         Whole::Y => false,
@@ -348,6 +439,10 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         _ => true,
     };
     for (whole, keys) in WORDS.iter().filter(|(whole, _)| is_claim(*whole)) {
+        let text = match whole {
+            Whole::Combined | Whole::Expanded => &bare,
+            _ => text,
+        };
         let figure = super::words::figure_after(text, keys);
         let is_factor = |figure: &Printed| factor.as_ref().is_some_and(|k| k.text == figure.text);
         if let Some(figure) = figure.filter(|figure| has(&lower, keys) && !is_factor(figure)) {

@@ -150,6 +150,7 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         .iter()
         .any(|u| u.at == line.at && u.role == "model")
     {
+        correlate_behind_model(line, claimed);
         return;
     }
     if is_of_other_table(&lower) {
@@ -214,6 +215,16 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
                 text: line.text.clone(),
                 role,
             });
+            // What is called U and has another figure than k, but none that is understood, is told.
+            let is_lost = footer::label(&line.text, "") == Some(footer::Whole::Expanded)
+                && claimed.footer.expanded.is_none()
+                && footer::has_other_figure(&line.text);
+            if is_lost {
+                claimed.unplaced.push(Unplaced {
+                    at: line.at,
+                    text: line.text.clone(),
+                });
+            }
             return;
         }
     }
@@ -229,6 +240,22 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         claimed.unplaced.push(Unplaced {
             at: line.at,
             text: line.text.clone(),
+        });
+    }
+}
+
+/// Takes the correlations that stand in the line of the model, behind it.
+fn correlate_behind_model(line: &Line, claimed: &mut Claimed) {
+    let Some((_, behind)) = line.text.split_once([';', '。']) else {
+        return;
+    };
+    let found = notes::correlation(behind.trim(), claimed).filter(|found| !found.is_empty());
+    if let Some(found) = found {
+        claimed.correlate(found);
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "correlation",
         });
     }
 }

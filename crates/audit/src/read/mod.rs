@@ -7,6 +7,7 @@
 //! | `blocks` | tables that are blocks of one budget |
 //! | `by_type` | tables with a column of figures for each type of evaluation |
 //! | `columns` | what a column is, by its head |
+//! | `conditions` | what labels say beside a name: points, multiples |
 //! | `counts` | whole numbers that count something in texts |
 //! | `coverage` | what a sheet says of its coverage |
 //! | `statement` | results that are stated with their uncertainty |
@@ -39,6 +40,7 @@ mod blanks;
 mod blocks;
 mod by_type;
 mod columns;
+mod conditions;
 mod converter;
 mod counts;
 mod coverage;
@@ -258,6 +260,7 @@ impl Found {
 
 /// A budget that is told in sentences.
 fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
+    let all = &with_conclusions(all)[..];
     let mut rows: Vec<(usize, Row)> = all
         .iter()
         .enumerate()
@@ -274,6 +277,23 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
         return None;
     }
     Some(told(all, rows, mapping))
+}
+
+/// Lines, those of rows with the line below them that says what u they come to: `u_A = s/√10 = 0.00101 V`.
+fn with_conclusions(all: &[Line]) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
+    for line in all {
+        let is_open = |above: &&mut Line| {
+            let row = prose::row(&above.text, above.at);
+            row.is_some_and(|row| row.u.is_none()) && above.at.row + 1 == line.at.row
+        };
+        let concludes = prose::is_conclusion(&line.text);
+        match lines.last_mut().filter(|above| concludes && is_open(above)) {
+            Some(above) => above.text = format!("{}, {}", above.text, line.text),
+            None => lines.push(line.clone()),
+        }
+    }
+    lines
 }
 
 /// A budget that is told in running text: what its sentences state, and u_c or U of it.
@@ -456,7 +476,8 @@ fn unread_cells(raw: &[table::Raw]) -> Vec<Unplaced> {
     let mut unread: Vec<Unplaced> = Vec::new();
     let cells = |raw: &table::Raw| {
         let row = &raw.row;
-        [row.unread_unit.clone(), row.unread_distribution.clone()]
+        let unread = [&row.unread_unit, &row.unread_distribution, &row.unread_c];
+        unread.map(Clone::clone)
     };
     for cell in raw.iter().flat_map(cells).flatten() {
         if unread.iter().all(|known| known.text != cell.text) {

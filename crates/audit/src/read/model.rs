@@ -250,12 +250,55 @@ pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
     let [symbol] = open.as_slice() else {
         return None;
     };
-    let given = |line: &&Line| notes::is_assigned(&line.text, symbol);
+    let given = |line: &&Line| {
+        notes::is_assigned(&line.text, symbol) || is_called_exact(&line.text, symbol)
+    };
+    // `y = x + 0.5 mm`: what stands behind a number is its unit.
+    if behind_numbers(model, symbol) {
+        return None;
+    }
     (!all.iter().any(given)).then(|| Row {
         symbol: (*symbol).into(),
         is_absent: true,
         ..Row::default()
     })
+}
+
+/// Whether a text says of a symbol that it is exact, nominal or a constant.
+fn is_called_exact(text: &str, symbol: &str) -> bool {
+    const WORDS: [&str; 14] = [
+        "exact",
+        "nominal",
+        "constant",
+        "by definition",
+        "defined",
+        "conventional",
+        "标称",
+        "公称",
+        "常数",
+        "常量",
+        "准确值",
+        "约定",
+        "定义值",
+        "名义",
+    ];
+    let lower = text.to_lowercase();
+    words::has_symbol(text, symbol) && WORDS.iter().any(|word| lower.contains(word))
+}
+
+/// Whether a name is a unit that stands nowhere but behind numbers.
+fn behind_numbers(formula: &str, name: &str) -> bool {
+    let mut from = 0;
+    let mut is_some = false;
+    while let Some(at) = words::symbol_at(formula, name, from) {
+        let front = formula[..at].trim_end();
+        if !front.ends_with(|c: char| c.is_ascii_digit()) || !columns::is_unit(name) {
+            return false;
+        }
+        is_some = true;
+        from = at + name.len();
+    }
+    is_some
 }
 
 #[cfg(test)]

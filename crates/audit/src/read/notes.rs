@@ -124,8 +124,10 @@ fn last_figure(text: &str) -> Option<Printed> {
 /// Correlations of a line; none in it where it says that there is none.
 pub fn correlation(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
     let lower = text.to_lowercase();
-    let is_of_it =
-        has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r(");
+    let is_begun = ["r(", "ρ("]
+        .iter()
+        .any(|lead| lower.starts_with(lead) || lower.contains(&format!(" {lead}")));
+    let is_of_it = has(&lower, &["correlat", "相关"]) || is_begun;
     if !is_of_it {
         return None;
     }

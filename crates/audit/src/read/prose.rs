@@ -296,6 +296,12 @@ fn concluded(text: &str) -> Option<(&str, Printed)> {
     Some((text[..at].trim_end_matches(leads), figure))
 }
 
+/// Whether a line is nothing but the equation of a standard uncertainty: `u_B = 0.0045/√3 = 0.0026 V`.
+pub(super) fn is_conclusion(text: &str) -> bool {
+    let lead = concluded(text).map(|(front, _)| front);
+    lead.is_some_and(|front| front.trim().is_empty()) && !text.contains([',', ';', ':'])
+}
+
 /// The sensitivity coefficient, where a clause states one.
 fn coefficient(words: &str) -> Option<Printed> {
     const NAMES: [&str; 5] = [

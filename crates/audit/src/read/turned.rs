@@ -89,8 +89,11 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize, usize)> {
         .iter()
         .filter_map(|text| Some(columns::role(text)?.0));
     let across_roles: Vec<Role> = across_roles.collect();
+    let (of_words, of_words_below) = (words(across.iter().copied()), words(below.clone()));
+    // Quantities A, B and C below a head of letters, `Symbol | u | c`: those of columns are small ones.
+    let are_capital = || capitals(below.skip(1)) && !capitals(across.iter().copied().skip(1));
     let is_usual = (is_head(&across_roles) || is_head_of_summary(&across_roles))
-        && words(across.into_iter()) > words(below);
+        && (of_words > of_words_below || of_words == of_words_below && are_capital());
     let mut names = grid.filled(start).map(|(_, cell)| cell.text.as_str());
     let is_compared = names.any(is_of_comparison);
     // One column of figures behind the heads would be one quantity, and no budget.
@@ -98,6 +101,11 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize, usize)> {
     let is_turned =
         roles.len() >= FEWEST && is_head(&roles) && !is_usual && !is_compared && are_several;
     is_turned.then_some((start, end, heads))
+}
+
+/// Whether names are capital letters, each alone.
+fn capitals<'t>(mut names: impl Iterator<Item = &'t str>) -> bool {
+    names.all(|name| name.chars().count() == 1 && name.chars().all(char::is_uppercase))
 }
 
 /// Whether a column is that of one of several calculations of a result, or of what somebody claims of it.

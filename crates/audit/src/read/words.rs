@@ -224,7 +224,8 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
 
 /// Whether a text begins with a sign of multiplication; an `x` is one between blanks.
 pub fn starts_product(text: &str) -> bool {
-    text.starts_with(['×', '*', '·']) || text.starts_with("x ") || text.starts_with("X ")
+    let marked = text.starts_with(['×', '*', '·']);
+    marked || text.starts_with("x ") || text.starts_with("X ")
 }
 
 /// Whether a text goes on to a further term of a sum, before its clause ends: `+ 5 L µm`, `读数 + 2.5 µV`.
@@ -435,7 +436,13 @@ pub fn signed_pair(text: &str) -> Option<(Printed, Printed)> {
         let digit = text[at + 1..]
             .trim_start()
             .starts_with(|c: char| c.is_ascii_digit());
-        if let Some((figure, behind)) = leading(&text[at + 1..]).filter(|_| free && digit) {
+        // `+ 2.51/(Re·x)` is a term of a formula.
+        let is_alone = |(_, behind): &(Printed, &str)| {
+            let behind = behind.trim_start();
+            !starts_product(behind) && !starts_quotient(behind)
+        };
+        let found = leading(&text[at + 1..]).filter(|_| free && digit);
+        if let Some((figure, behind)) = found.filter(is_alone) {
             let unit = unit_in(behind.trim_start(), text);
             let unit = if crate::units::parse(&unit).is_some() {
                 unit
@@ -505,7 +512,7 @@ fn unit_in(lower: &str, whole: &str) -> String {
     }
     let end = lower.find(|c: char| {
         c.is_whitespace()
-            || ",;)(=。、".contains(c)
+            || ",;:)(=。、".contains(c)
             || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');

@@ -51,11 +51,23 @@ pub(super) fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coar
     let unused = whole && (nu - figure.value).abs() <= 0.5 && k(figure.value) == k(cut);
     near || same
         || unused
+        || is_of_table(figure, nu)
         || if whole {
             figure.value == cut
         } else {
             figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
         }
+}
+
+/// Whether degrees of freedom are those of the next lower row of the table of t, where k was looked up (JCGM 100, G.4.1 and
+/// table G.2).
+fn is_of_table(figure: &Printed, nu: f64) -> bool {
+    const OF_GUIDE: &[f64] = &[20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 100.0];
+    const OF_BOOKS: &[f64] = &[30.0, 40.0, 50.0, 60.0, 80.0, 100.0, 120.0, 200.0];
+    [OF_GUIDE, OF_BOOKS].iter().any(|rows| {
+        let below = rows.iter().rev().find(|row| **row <= nu);
+        below == Some(&figure.value)
+    })
 }
 
 /// Whether a factor is printed like this. One with two decimals or less has been rounded to two, whatever zeros its cell

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
 //! | `functions` | the functions of spreadsheets that budgets are computed with |
+//! | `latex` | formulas of Markdown as plain text |
 //! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `ruled` | tables of a page whose head has a rule below it |
@@ -14,6 +15,7 @@
 
 mod functions;
 mod hidden;
+mod latex;
 mod open_document;
 mod ruled;
 mod shown;

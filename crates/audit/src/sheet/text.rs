@@ -6,6 +6,7 @@ use std::ops::Range;
 use gumption_fault::say;
 use gumption_format::csv::western;
 
+use super::latex::plain;
 use super::ruled::{has_rules, is_wide, widened};
 use super::{Cell, Grid, Unreadable};
 
@@ -261,10 +262,8 @@ pub(super) fn markdown(text: &str) -> Grid {
 }
 
 fn unmarked(text: &str) -> String {
-    text.replace("**", "")
-        .replace('`', "")
-        .replace("<br>", " ")
-        .replace('$', "")
+    let text = text.replace("**", "").replace('`', "");
+    plain(&text.replace("<br>", " "))
 }
 
 /// Plain text whose columns are apart by two blanks or more.

@@ -308,7 +308,8 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "ref-missing", rule: "77", weight: Warning,
         en: "the uncertainty of the reference itself is not in the budget",
         zh: "漏计标准器本身的不确定度",
-        acts: |case| each(case, |_, row| if row.is_absent { vec![Change::Counted(false)] } else { Vec::new() }) },
+        // Of what nothing is known but that the model has it, that is asked (rule 60): it may be a number, or exact.
+        acts: |case| each(case, |_, row| if row.is_absent && row.stated != Stated::Nothing { vec![Change::Counted(false)] } else { Vec::new() }) },
     Slip { id: HARD_CODED, rule: "82", weight: Warning,
         en: "a number stands where a formula belongs, or its formula was not computed again",
         zh: "应为公式的单元格中是固定数值，或公式修改后未重新计算",

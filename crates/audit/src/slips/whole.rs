@@ -179,8 +179,8 @@ pub(super) const SLIPS: &[Slip] = &[
         zh: "有效自由度小，却取 k = 2",
         acts: |case| if by_t(case).is_some() { one(Change::Factor(Factor::Fixed(2.0))) } else { Vec::new() } },
     Slip { id: "k-level", rule: "44", weight: Warning,
-        en: "k belongs to another coverage probability (95 against 95.45 %) than the one stated",
-        zh: "k 对应的包含概率（95 % 与 95.45 %）与所述不一致",
+        en: "k belongs to another coverage probability (of 95, 95.45, 99 and 99.73 %) than the one stated",
+        zh: "k 对应的包含概率（95 %、95.45 %、99 %、99.73 % 之一）与所述不一致",
         acts: |case| match case.right.factor {
             Factor::StudentT(p) => [0.95, 0.9545, 0.99, 0.9973].into_iter().filter(|q| (q - p).abs() > 1e-3).flat_map(|q| one(Change::Factor(Factor::StudentT(q)))).collect(),
             Factor::Fixed(2.0) => one(Change::Factor(Factor::Fixed(1.96))),

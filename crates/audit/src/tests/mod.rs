@@ -11,14 +11,18 @@ mod hands;
 mod labels;
 mod laboratories;
 mod layouts;
+mod named_figures;
 mod others;
 mod points;
 mod reports;
 mod several;
+mod side_by_side;
 mod stated;
 mod statements;
 mod strangers;
+mod unjudged;
 mod workbooks;
+mod written_out;
 
 use crate::claim::Claimed;
 use crate::read::Mapping;

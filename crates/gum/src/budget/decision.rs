@@ -142,6 +142,18 @@ impl DecisionRule {
         let mpe = tolerance.width().unwrap_or(f64::INFINITY) / 2.0;
         (self == DecisionRule::Jjf1094).then_some(mpe / 3.0)
     }
+
+    /// Whether U is so small that it judges without a guard band, as the decimals of U and the limits have it: 0.10 is a third of
+    /// 0.3, though as doubles it is above it.
+    pub fn judges_simply(self, expanded: f64, tolerance: Interval) -> bool {
+        let Some(most) = self.largest_expanded(tolerance) else {
+            return false;
+        };
+        // Limits about a large value have the roundings of that.
+        let ends = [tolerance.lower.abs(), tolerance.upper.abs()];
+        let roundings = SAME_DECIMAL * most.max(ends[0]).max(ends[1]);
+        expanded <= most || roundings.is_finite() && expanded - most <= roundings
+    }
 }
 
 /// Largest permissible global risks: probabilities over all items of the process. At least one is stated.

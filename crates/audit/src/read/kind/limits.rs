@@ -5,13 +5,17 @@ use gumption_core::special::normal_two_sided_quantile;
 use crate::claim::{Shape, Stated};
 use crate::printed::{Printed, leading};
 use crate::read::family::*;
-use crate::read::words::{figure_after, has, named_probability, signed_pair};
+use crate::read::words::{figure_after, figures_with_units, has, named_probability, signed_pair};
 use crate::units;
 
 use super::evidence::Evidence;
 
 pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
-    let half_width = e.figure_or_used(&[LIMITS, &["误差"]].concat())?;
+    let of_class = e.used.filter(|used| e.full && is_of_class(e.words, used));
+    let half_width = match of_class {
+        Some(used) => used.clone(),
+        None => e.figure_or_used(&[LIMITS, &["误差"]].concat())?,
+    };
     let level = (is_95(text) || has(text, &["confidence of", "level of confidence", "置信"]))
         && !has(
             text,
@@ -100,6 +104,13 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
             || text.contains(&format!("±{}", step.text));
         // `estimated to 1/10 of a division of 20 kPa`
         let part = part_of_division(text).filter(|_| !half);
+        if let Some(half_width) = part.and_then(|part| half_of_part(e, &step, part)) {
+            return Some(Stated::Limits {
+                half_width,
+                shape: Shape::Rectangular,
+                shape_stated: true,
+            });
+        }
         if half || part.is_some() {
             return Some(Stated::Limits {
                 half_width: step.scaled(part.unwrap_or(1.0)),
@@ -151,6 +162,57 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
             step: used.scaled(2.0),
         }
     })
+}
+
+/// Half the part of a division to which an indication is estimated, where the laboratory takes the part for the whole width: so its ± says,
+/// or else its u.
+fn half_of_part(e: &Evidence<'_>, step: &Printed, part: f64) -> Option<Printed> {
+    let width = |unit: &str| part * step.value * units::factor(&step.unit, unit).unwrap_or(1.0);
+    let half = |unit: &str| width(unit) / 2.0;
+    match (e.used.filter(|_| e.full), e.u) {
+        (Some(used), _) => used
+            .is_met_within(half(&used.unit), used.half)
+            .then(|| used.clone()),
+        (None, Some(u)) => {
+            let root3 = libm::sqrt(3.0);
+            let is_met = |limit: f64| u.is_met_within(limit / root3, u.half_of_digits());
+            let is_half = is_met(half(&u.unit)) && !is_met(width(&u.unit));
+            is_half.then(|| step.clone().scaled(part / 2.0))
+        }
+        _ => None,
+    }
+}
+
+/// Whether what was used is a class, or a percentage, of an amount that the words name: 3.0 kPa of `accuracy class 0.5, 600 kPa`.
+fn is_of_class(words: &str, used: &Printed) -> bool {
+    let mut amounts =
+        figures_with_units(words).filter(|amount| units::fraction(&amount.unit).is_none());
+    let classes: Vec<f64> = numbers(words).collect();
+    amounts.any(|amount| {
+        let factor = match (amount.unit.as_str(), used.unit.as_str()) {
+            (_, "") => Some(1.0),
+            (own, unit) => units::factor(own, unit),
+        };
+        let parts = classes
+            .iter()
+            .filter(|class| (0.001..=10.0).contains(*class));
+        let mut limits =
+            parts.map(|class| class / 100.0 * amount.value.abs() * factor.unwrap_or(0.0));
+        factor.is_some() && limits.any(|limit| used.is_met_within(limit, used.half))
+    })
+}
+
+/// The numbers of a text that are no part of a word.
+fn numbers(text: &str) -> impl Iterator<Item = f64> {
+    let starts = text.char_indices().filter(|(at, c)| {
+        let before = text[..*at].chars().next_back();
+        let joined = |c: char| c.is_ascii_alphanumeric() || ".,_/^-".contains(c);
+        c.is_ascii_digit() && !before.is_some_and(joined)
+    });
+    let places: Vec<usize> = starts.map(|(at, _)| at).collect();
+    places
+        .into_iter()
+        .filter_map(|at| Some(leading(&text[at..])?.0.value))
 }
 
 /// Whether u is that of a difference of two indications with this step, √2 times that of one (OIML R 111-1, C.6.4.3).

@@ -17,7 +17,10 @@ struct Point {
 
 /// The sheet parted by the points in this row of heads, if they stand there.
 pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
-    let points = points(grid, head)?;
+    let points = points(grid, head, &of_amount, 1).or_else(|| {
+        let labelled = points(grid, head, &labelled, 2)?;
+        have_own_whole(grid, &rows_below(grid, head), &labelled).then_some(labelled)
+    })?;
     let rows = rows_below(grid, head);
     let bare = points.iter().all(|point| is_bare(&point.columns));
     let kind = match bare {
@@ -58,12 +61,59 @@ fn of_points(points: &[Point]) -> impl Iterator<Item = usize> + '_ {
         .flat_map(|point| point.columns.iter().map(|(column, _)| *column))
 }
 
-/// At least two points of the same columns beside a column of sources.
-fn points(grid: &Grid, head: usize) -> Option<Vec<Point>> {
+/// Everything that an amount, or several of them, says of a point, `10 V (50 Hz)`, and what is left of a head.
+fn of_amount(text: &str) -> Option<(String, String)> {
+    let (mut name, mut rest) = amount(text)?;
+    while let Some((more, left)) = amount(&rest) {
+        name = format!("{name}, {more}");
+        rest = left;
+    }
+    let rest = rest.replace("()", "").replace('@', "");
+    Some((name, rest.split_whitespace().collect::<Vec<_>>().join(" ")))
+}
+
+/// A point that has a name and no amount, `Point 1`, `low`, in a bracket behind what its figures are: `u (low) / mK`.
+fn labelled(text: &str) -> Option<(String, String)> {
+    let (front, unit) = apart(text);
+    let (front, name) = front.strip_suffix(')')?.rsplit_once('(')?;
+    let (front, name) = (front.trim(), name.trim());
+    let is_figure = role(front).is_some_and(|(role, _)| role.is_figure());
+    // What spans several heads is no unit of them, and what stands in front of one is none.
+    let spans = name.strip_prefix('@');
+    let is_name = !name.is_empty()
+        && !name.contains('=')
+        && (spans.is_some() || !unit.is_empty() || !is_unit(name));
+    let name = spans.unwrap_or(name);
+    let rest = match unit.is_empty() {
+        true => front.to_owned(),
+        false => format!("{front} / {unit}"),
+    };
+    (is_figure && is_name).then(|| (name.to_owned(), rest))
+}
+
+/// Whether a row states u_c or U of each point: what is called alike may be something else, as the two types of evaluation are.
+fn have_own_whole(grid: &Grid, rows: &BTreeSet<usize>, points: &[Point]) -> bool {
+    let is_stated = |row: usize, point: &Point| {
+        let mut columns = point.columns.iter();
+        columns.any(|(column, _)| grid.cell(row, *column).figure().is_some())
+    };
+    let mut whole = rows
+        .iter()
+        .filter(|row| whole_of_row(grid, **row).is_some());
+    whole.any(|row| points.iter().all(|point| is_stated(*row, point)))
+}
+
+/// At least two points of the same columns beside a column of sources, each of as many columns as that.
+fn points(
+    grid: &Grid,
+    head: usize,
+    parted: &dyn Fn(&str) -> Option<(String, String)>,
+    fewest: usize,
+) -> Option<Vec<Point>> {
     let mut points: Vec<Point> = Vec::new();
     let mut is_named = false;
     for (column, cell) in grid.filled(head) {
-        match amount(&cell.text) {
+        match parted(&cell.text) {
             Some((name, rest)) => match points.iter_mut().find(|point| point.name == name) {
                 Some(point) => point.columns.push((column, rest)),
                 None => points.push(Point {
@@ -85,7 +135,8 @@ fn points(grid: &Grid, head: usize) -> Option<Vec<Point>> {
     let alike = points.iter().all(|point| rests(point) == first);
     let is_figure = |rest: &String| role(rest).is_some_and(|(role, _)| role.is_figure());
     let known = is_bare(&points[0].columns) || first.iter().all(is_figure);
-    (points.len() >= 2 && is_named && alike && known).then_some(points)
+    let enough = points.len() >= 2 && first.len() >= fewest;
+    (enough && is_named && alike && known).then_some(points)
 }
 
 /// Whether heads have nothing but the point, or a unit behind it.

@@ -15,6 +15,7 @@ use crate::sheet::{Cell, Grid};
 
 use super::columns::is_unit;
 use super::footer::{self, Whole};
+use super::words::alone;
 
 /// The sheet as one for each of its points; the sheet itself where it has no more than one.
 pub fn parted(grid: &Grid) -> Vec<Grid> {
@@ -69,19 +70,23 @@ fn whole_of_row(grid: &Grid, row: usize) -> Option<Whole> {
 fn amount(text: &str) -> Option<(String, String)> {
     let starts = text.char_indices().filter(|(at, c)| {
         let before = text[..*at].chars().next_back();
-        c.is_ascii_digit() && before.is_none_or(|c| " ,;(（在".contains(c))
+        let next = text[at + c.len_utf8()..].chars().next();
+        let is_signed = matches!(c, '-' | '+' | '±') && next.is_some_and(|c| c.is_ascii_digit());
+        let is_free = before.is_none_or(|c| " ,;(（在@".contains(c));
+        (c.is_ascii_digit() || is_signed) && is_free
     });
     starts.map(|(at, _)| at).find_map(|at| {
         let (_, behind) = leading(&text[at..])?;
         let unit = behind.trim_start();
-        let end = unit.find([' ', ',', ')', '）', '/', '，', '处', '点']);
+        let end = unit.find([' ', ',', ')', '）', '(', '@', '/', '，', '处', '点']);
         let end = end.unwrap_or(unit.len());
         // `m/s` has a stroke of its own.
         let whole = unit
-            .find([' ', ',', ')', '）', '，', '处', '点'])
+            .find([' ', ',', ')', '）', '(', '@', '，', '处', '点'])
             .unwrap_or(unit.len());
         let end = if is_unit(&unit[..whole]) { whole } else { end };
-        is_unit(&unit[..end]).then(|| {
+        // `10 %FS` is a point as `10 %` is.
+        is_unit(alone(&unit[..end])).then(|| {
             let stop = text.len() - unit.len() + end;
             let (front, rest) = (&text[..at], &text[stop..]);
             let front = front.trim_end_matches([' ', '(', '（', ',', '在', '@']);
@@ -167,6 +172,9 @@ mod tests {
         assert_eq!(of("u (100 °C)"), pair("100 °C", "u"));
         assert_eq!(of("0.1 MPa"), pair("0.1 MPa", ""));
         assert_eq!(of("10 m/s"), pair("10 m/s", ""));
+        assert_eq!(of("u (-20 °C) / mK"), pair("-20 °C", "u / mK"));
+        assert_eq!(of("a(-20°C) / mK"), pair("-20°C", "a / mK"));
+        assert_eq!(of("±10 V"), pair("±10 V", ""));
         for none in ["U (k=2)", "u / mm", "u1", "U95 / V", "×10^-6", "Divisor"] {
             assert_eq!(amount(none), None, "{none}");
         }

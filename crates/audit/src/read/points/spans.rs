@@ -1,12 +1,56 @@
 //! Heads that span the columns of a second line: `1 bar` above `±` and `u`, or `u_i / °C` above the names of sources.
 
-use crate::read::columns::apart;
+use crate::read::columns::{apart, role};
+use crate::read::footer::TYPES;
 use crate::sheet::{Cell, Grid};
 
 use super::{amount, names_points};
 
-/// The sheet with both lines of such a head in the second one, `at 1 bar ±` and `at 1 bar u`; nothing where there are none.
+/// The sheet with both lines of such a head in the second one, `at 1 bar ±` and `at 1 bar u`, or `u (@low)`; nothing where there
+/// are none.
 pub(super) fn joined(grid: &Grid, head: usize) -> Option<Grid> {
+    of_amounts(grid, head).or_else(|| of_names(grid, head))
+}
+
+/// The same of points that have names and no amounts, where all of them span the same figures.
+fn of_names(grid: &Grid, head: usize) -> Option<Grid> {
+    let below = |column: usize| grid.cell(head + 1, column).text.as_str();
+    let is_words = |(_, cell): (usize, &Cell)| cell.figure().is_none();
+    let width = grid.rows.get(head + 1)?.len();
+    let starts: Vec<usize> = grid
+        .filled(head)
+        .map(|(column, _)| column)
+        .filter(|column| !below(*column).is_empty())
+        .collect();
+    let end = |place: usize| starts.get(place + 1).copied().unwrap_or(width);
+    let heads = |place: usize| -> Vec<&str> { (starts[place]..end(place)).map(below).collect() };
+    let first = (!starts.is_empty()).then(|| heads(0))?;
+    let is_figure = |text: &&str| role(text).is_some_and(|(role, _)| role.is_figure());
+    let is_point = |place: usize| {
+        let name = grid.cell(head, starts[place]).text.to_lowercase();
+        !TYPES.contains(&name.as_str()) && heads(place) == first
+    };
+    let is_whole = starts.len() >= 2 && first.len() >= 2 && first.iter().all(is_figure);
+    if !is_whole || !(0..starts.len()).all(is_point) || !grid.filled(head + 1).all(is_words) {
+        return None;
+    }
+    let text = |column: usize| match starts.iter().rev().find(|start| **start <= column) {
+        Some(start) => {
+            let (name, unit) = apart(below(column));
+            let named = format!("{name} (@{})", grid.cell(head, *start).text);
+            match unit.is_empty() {
+                true => named,
+                false => format!("{named} / {unit}"),
+            }
+        }
+        None => [grid.cell(head, column), grid.cell(head + 1, column)]
+            .map(|cell| cell.text.as_str())
+            .join(" "),
+    };
+    Some(with_heads(grid, head, (0..width).map(text)))
+}
+
+fn of_amounts(grid: &Grid, head: usize) -> Option<Grid> {
     let above: Vec<(usize, &Cell)> = grid.filled(head).collect();
     // `at 0 °C`, `10 V range`: with no more words than that.
     let point = |text: &str| {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use crate::claim::{Claimed, Understood};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{self, Role};
+use crate::read::conditions;
 use crate::read::coverage;
 use crate::read::footer::{self, Whole};
 use crate::read::notes;
@@ -61,7 +62,10 @@ pub(super) fn read(
             row,
             column: *column,
         };
-        match grid.cell(row, *column).figure() {
+        let figure = grid.cell(row, *column).figure();
+        // `2u | 0.42`: no figure in the unit u.
+        let is_multiple = position == 0 && footer::multiple_alone(text).is_some();
+        match figure.filter(|_| !is_multiple) {
             None => reading.words(place, text),
             // The figure of the label is one that the file does not keep, and no other.
             Some(_) if surroundings.lacks_value_in_front(position) => reading.open = None,
@@ -147,6 +151,16 @@ impl<'a> Surroundings<'a> {
         (from + 1..column(position)).any(|column| self.grid.cell(self.row, column).lacks_value())
     }
 
+    /// Whether a row below it states U.
+    fn has_expanded_below(&self) -> bool {
+        let below = self.row + 1..=self.row + footer::ROWS_TO_EXPANDED;
+        let mut labels = below.filter_map(|row| self.grid.filled(row).next());
+        labels.any(|(_, cell)| {
+            let is_expanded = footer::label(&cell.text, &self.measurand) == Some(Whole::Expanded);
+            is_expanded && !footer::is_total(&cell.text)
+        })
+    }
+
     /// Whether a figure stands in the column of the contributions.
     fn has_contribution(&self) -> bool {
         let contribution = self.located.column(Role::Contribution);
@@ -216,6 +230,10 @@ impl Reading<'_> {
         }
         let of_force = || (text == "W" && self.around.labels == 0).then_some(Whole::Expanded);
         match footer::label(text, &self.around.measurand).or_else(of_force) {
+            // `总不确定度 | 0.208` above `U | 0.42` is u_c.
+            Some(Whole::Expanded) if footer::is_total(text) && self.around.has_expanded_below() => {
+                self.label(Whole::Combined, place, text);
+            }
             Some(whole) => self.label(whole, place, text),
             // `k | p = 95 %, t-distribution | 2.03`
             None if self.is_open(Whole::Factor) => coverage::rule_of_label(text, self.claimed),
@@ -248,6 +266,12 @@ impl Reading<'_> {
 
     fn label(&mut self, whole: Whole, place: Place, text: &str) {
         self.is_relative = footer::is_relative(text);
+        let at_point = conditions::without_point(text);
+        // The point is an amount of which a relative figure may be a part.
+        if at_point != text {
+            self.claimed.words.push_str(text);
+            self.claimed.words.push('\n');
+        }
         // `Expanded uncertainty | k = | 2 | 0.6`: behind its factor U is still open.
         if whole == Whole::Factor && !self.is_open(whole) {
             self.behind_factor = self.open.take();
@@ -264,9 +288,9 @@ impl Reading<'_> {
                     self.take(Whole::Factor, k.at(place), text);
                 }
                 notes::rounding(&text.to_lowercase(), self.claimed);
-                columns::apart(text).1
+                columns::apart(&at_point).1
             }
-            _ => columns::apart(text).1,
+            _ => columns::apart(&at_point).1,
         };
         // `U | Expanded uncertainty`: symbol and words of the same figure.
         self.open = Some((whole, unit));

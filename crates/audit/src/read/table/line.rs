@@ -9,6 +9,7 @@ use crate::read::words::{alone, has};
 use crate::sheet::Grid;
 use crate::units;
 
+use super::coefficient;
 use super::freedom;
 use super::located::{Column, Located};
 use super::raw::{Raw, positive};
@@ -53,11 +54,14 @@ impl<'a> Line<'a> {
             is_root: false,
             row: Row {
                 at: self.place(self.grid.filled(self.row).next().map_or(0, |(i, _)| i)),
-                value: self.figure(Role::Value),
+                value: self
+                    .figure(Role::Value)
+                    .or_else(|| Some(self.with_estimate()?.0)),
                 used: used.map(positive),
                 divisor: self.figure(Role::Divisor),
                 u: self.figure(Role::U).map(positive),
-                c: self.figure(Role::C),
+                c: self.coefficient().or_else(|| self.shown_coefficient()),
+                unread_c: self.unread_coefficient(),
                 contribution: self.figure(Role::Contribution),
                 dof: self.dof(),
                 unit: alone(self.unit_beside(0)).to_string(),
@@ -133,6 +137,59 @@ impl<'a> Line<'a> {
         Some(figure)
     }
 
+    /// The sensitivity coefficient: a figure, or a product of figures that the cell writes out, `150 mm×11.5×10⁻⁶/℃`.
+    fn coefficient(self) -> Option<Printed> {
+        let column = self.located.column(Role::C)?;
+        let text = self.text_in(column);
+        let made = coefficient::product(text).map(|made| {
+            let unit = match made.unit.as_str() {
+                "" => column.unit.clone(),
+                unit => unit.to_owned(),
+            };
+            Printed { unit, ..made }.at(self.place(column.index))
+        });
+        // What is behind the first number of a product is no unit of it.
+        let is_product = text.contains(['=', '×', '*', '·', '⋅']);
+        let is_own =
+            |figure: &Printed| !is_product || figure.unit.is_empty() || is_read(&figure.unit);
+        let figure = self.figure(Role::C).filter(is_own);
+        match (figure, made) {
+            // The same, with the digits that it has.
+            (Some(figure), Some(made)) if made.is_met_within(figure.value, 0.0) => Some(figure),
+            (figure, made) => made.or(figure),
+        }
+    }
+
+    /// The coefficient that u and the contribution of the row show, where its cell has a formula that is not understood: `L·α`.
+    fn shown_coefficient(self) -> Option<Printed> {
+        let unread = self.unread_coefficient()?;
+        let (u, made) = (self.figure(Role::U)?, self.figure(Role::Contribution)?);
+        let factor = units::factor(&u.unit, &made.unit).unwrap_or(1.0);
+        let sign = if unread.text.starts_with('-') {
+            -1.0
+        } else {
+            1.0
+        };
+        let value = sign * (made.value / (factor * u.value)).abs();
+        let half = value.abs() * (made.relative_half() + u.relative_half());
+        let shown = Printed {
+            half,
+            ..Printed::exact(value, &unread.text)
+        };
+        value.is_finite().then(|| shown.at(unread.at))
+    }
+
+    /// What stands in the column of coefficients and is no number.
+    fn unread_coefficient(self) -> Option<Unplaced> {
+        let column = self.located.column(Role::C)?;
+        let text = self.text_in(column);
+        let is_unread = self.coefficient().is_none() && coefficient::is_formula(text);
+        is_unread.then(|| Unplaced {
+            at: self.place(column.index),
+            text: text.to_owned(),
+        })
+    }
+
     /// The first of what stands in the place of a unit and is none that is known.
     fn unread_unit(self) -> Option<Unplaced> {
         let roles = [Role::Value, Role::Used, Role::U, Role::Contribution];
@@ -194,6 +251,15 @@ impl<'a> Line<'a> {
     fn used(self) -> (Option<Printed>, &'a str) {
         let column = self.located.column(Role::Used);
         let text = column.map_or("", |column| self.text_in(column));
+        // `100.00 mV ± 0.30 mV`: the estimate stands in front of what is known.
+        if let Some((_, half)) = self.with_estimate() {
+            return (Some(half), "");
+        }
+        if column.is_none()
+            && let Some(figure) = self.remarked()
+        {
+            return (Some(figure), "");
+        }
         let bracketed = printed::leading(text);
         let bracketed = bracketed.filter(|(_, behind)| behind.trim_start().starts_with('('));
         let remark = match &bracketed {
@@ -210,6 +276,36 @@ impl<'a> Line<'a> {
             Some(Printed { unit, ..figure }.at(self.place(column)))
         };
         (self.figure(Role::Used).or_else(in_front), remark)
+    }
+
+    /// The estimate and the ± of a cell that has both.
+    fn with_estimate(self) -> Option<(Printed, Printed)> {
+        let column = self.located.column(Role::Used)?;
+        let (value, half) = self.text_in(column).split_once(['±'])?;
+        let (value, mut half) = (Printed::parse(value)?, Printed::parse(half)?);
+        for unit in [&value.unit, &column.unit] {
+            if half.unit.is_empty() {
+                half.unit.clone_from(unit);
+            }
+        }
+        let at = self.place(column.index);
+        (is_read(&half.unit) || half.unit.is_empty()).then(|| (value.at(at), half.at(at)))
+    }
+
+    /// The figure of a row whose remark is nothing else, where the row says by what it was divided, and no column is one of limits.
+    fn remarked(self) -> Option<Printed> {
+        let u = self.figure(Role::U)?;
+        self.figure(Role::Divisor)?;
+        let mut columns = self
+            .located
+            .columns
+            .iter()
+            .filter(|c| c.role == Role::Remark);
+        columns.find_map(|column| {
+            let figure = Printed::parse(self.text_in(column))?;
+            let is_alike = units::factor(&figure.unit, &u.unit).is_some();
+            is_alike.then(|| figure.at(self.place(column.index)))
+        })
     }
 
     /// Everything that it says in words.

@@ -15,6 +15,7 @@ use super::head::{head, is_matrix, line_above, second_line};
 use super::labels;
 use super::located::Located;
 use super::pages::joined;
+use super::relative_columns::take_relative;
 use super::sources;
 
 /// Every table of a sheet that is a budget.
@@ -39,6 +40,7 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 by_content(grid, &mut located);
                 nameless_figures(grid, &mut located);
                 with_coefficient(grid, &mut located);
+                take_relative(grid, &mut located);
                 if !located.rows.is_empty() {
                     let unit = located.unit(Role::Contribution);
                     let is_power = units::power_of_ten(unit).is_some();

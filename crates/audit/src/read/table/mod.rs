@@ -7,6 +7,7 @@
 //! | `content` | what stands in a column, where its head is doubtful |
 //! | `locate` | where a table stands, and which rows are its rows |
 //! | `pages` | tables that go on on the next page |
+//! | `relative_columns` | budgets of a product in relative figures, with the absolute ones beside them |
 //! | `relative` | figures of the whole that are relative to the result |
 //! | `line` | one row, as it stands on the sheet |
 //! | `raw` | a row with what is needed to interpret it |
@@ -14,6 +15,7 @@
 //! | `freedom` | degrees of freedom in words |
 //! | `sources` | rows that are called as figures of the whole are, and rows below u_c |
 //! | `closing` | the row of the result, which closes a table |
+//! | `coefficient` | coefficients that a cell writes out as a product |
 //! | `product` | tables of a product, by their relative uncertainties |
 //! | `footers` | the claimed figures of the whole |
 //! | `footer_row` | one row of them |
@@ -22,6 +24,7 @@
 //! | `interpret` | what is known of each row |
 
 mod closing;
+mod coefficient;
 mod contained;
 mod content;
 mod footer_row;
@@ -37,6 +40,7 @@ mod pages;
 mod product;
 mod raw;
 mod relative;
+mod relative_columns;
 mod rows;
 mod sources;
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::claim::Row;
 use crate::printed::Printed;
+use crate::read::words::has;
 use crate::sheet::Grid;
 use crate::units;
 
@@ -65,8 +66,77 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
         }
     }
     parts_are_not_counted(&mut rows);
+    shared_parts_are_counted_once(&mut rows);
     rows
 }
+
+/// Sources that several inputs share, below a heading that says so: what is independent in these inputs counts by itself, and each shared
+/// source once, with the coefficient that stands in its row.
+fn shared_parts_are_counted_once(rows: &mut [Raw]) {
+    let wholes = || (0..rows.len()).filter(|i| rows[*i].is_root);
+    let groups: Vec<(usize, Vec<usize>)> = wholes()
+        .map(|whole| (whole, parts_of(rows, whole)))
+        .collect();
+    let is_shared = |row: &usize| {
+        let why = rows[*row].row.not_counted.as_ref();
+        let says = |why: &String| has(&why.to_lowercase(), &SHARED);
+        why.is_some_and(says) && rows[*row].row.contribution.is_some()
+    };
+    // `m.lin` is what is called `lin` below m[1] and m[2].
+    let called = |part: usize, shared: usize| {
+        let (own, all) = (rows[part].row.label(), rows[shared].row.label());
+        own == all || all.rsplit_once('.').is_some_and(|(_, name)| name == own)
+    };
+    let of = |shared: usize| -> Vec<usize> {
+        let all = groups.iter().flat_map(|(_, parts)| parts.iter().copied());
+        all.filter(|part| called(*part, shared)).collect()
+    };
+    let shared: Vec<(usize, Vec<usize>)> = (0..rows.len())
+        .filter(is_shared)
+        .map(|shared| (shared, of(shared)))
+        .collect();
+    // The row of the result stands below the same heading.
+    let shared: Vec<(usize, Vec<usize>)> = shared
+        .into_iter()
+        .filter(|(_, parts)| parts.len() >= 2)
+        .collect();
+    if shared.is_empty() {
+        return;
+    }
+    for (whole, parts) in groups {
+        let (common, own): (Vec<usize>, Vec<usize>) = parts
+            .into_iter()
+            .partition(|part| shared.iter().any(|(_, parts)| parts.contains(part)));
+        if common.is_empty() {
+            continue;
+        }
+        rows[whole].row.not_counted = Some("in the rows of its parts".into());
+        // The estimate enters the result once, with the first of them.
+        if let Some(first) = own.first() {
+            rows[*first].row.value = rows[whole].row.value.clone();
+        }
+        for part in own {
+            rows[part].row.not_counted = None;
+        }
+    }
+    for (row, parts) in shared {
+        rows[row].row.not_counted = None;
+        let why = format!("in row {}", rows[row].row.label());
+        for part in parts {
+            rows[part].row.not_counted = Some(why.clone());
+        }
+    }
+}
+
+/// The rows right below one that are not counted because they are in it.
+fn parts_of(rows: &[Raw], whole: usize) -> Vec<usize> {
+    let why = format!("in row {}", rows[whole].row.label());
+    let is_part = |part: &usize| rows[*part].row.not_counted.as_deref() == Some(&why);
+    (whole + 1..rows.len()).take_while(is_part).collect()
+}
+
+/// Words of a heading above sources that several inputs share.
+const SHARED: [&str; 4] = ["shared", "common", "共同", "公共"];
 
 /// The last line between two rows of a table, which is about those below it: `Shared sources (already contained above)`, or a rule.
 fn heading(grid: &Grid, between: Range<usize>) -> Option<&str> {

@@ -49,8 +49,7 @@ impl Situation<'_> {
             },
             DecisionRule::GlobalRisks(permitted) => self.permitting(permitted),
             DecisionRule::Jjf1094 => {
-                let most = DecisionRule::Jjf1094.largest_expanded(tolerance);
-                if most.is_some_and(|most| self.expanded <= most) {
+                if rule.judges_simply(self.expanded, tolerance) {
                     return binary(Some(tolerance));
                 }
                 let guard = Guard::Amount(self.expanded);
@@ -409,6 +408,29 @@ mod tests {
                 upper: 1.4
             }
         );
+    }
+
+    /// U that is a third of the permissible error in decimals is one, whatever their doubles are.
+    #[test]
+    fn a_third_is_one_in_decimals() {
+        for (expanded, mpe, nominal) in [
+            (0.1, 0.3, 0.0),
+            (0.2, 0.6, 0.0),
+            (0.4, 1.2, 0.0),
+            (0.005, 0.015, 0.0),
+            (0.1, 0.3, 100.1),
+            (0.07, 0.21, 10.0),
+        ] {
+            let is_simple = |expanded: f64| {
+                let u = |_: f64| expanded / 2.0;
+                let u = normal(&u);
+                let (lower, upper) = (nominal - mpe, nominal + mpe);
+                let limits = situation(lower, upper, &u).limits(DecisionRule::Jjf1094);
+                limits.rejection == Interval { lower, upper }
+            };
+            assert!(is_simple(expanded), "{expanded} {mpe} {nominal}");
+            assert!(!is_simple(expanded * (1.0 + 1e-9)), "{expanded} {mpe}");
+        }
     }
 
     const PROCESS: Distribution = Distribution::Normal(Normal { mean: 0.3, sd: 0.5 });

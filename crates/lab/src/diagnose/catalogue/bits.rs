@@ -8,7 +8,7 @@ use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{Observed, Role};
 use crate::recording::resolution::{Steps, steps};
 
-/// Codes of the smallest converters, of eight bits: whole numbers over fewer may be anything else that is counted.
+/// Codes of the smallest converters, of eight bits: numbers without unit over fewer may be anything else.
 const CODES: f64 = 255.0;
 
 /// Cells of the outputs that may be those of converters, and of stimuli that are their codes.
@@ -190,14 +190,13 @@ impl Base {
     }
 }
 
-/// Codes are whole numbers; other outputs say their step, show it, or say their full scale.
+/// Codes have steps of 1; other outputs say their step, show it, or say their full scale.
 fn base(fitted: &FittedModel<'_>, response: usize) -> Option<Base> {
     let case = fitted.case();
     let output = &case.responses[response];
-    let readings = fitted.design.observed(response);
-    let (least, most) = range(&readings);
-    let is_code = |reading: &f64| reading.fract() == 0.0;
-    if output.unit.is_one() && readings.iter().all(is_code) && most - least >= CODES {
+    // Codes, or means of them.
+    let (least, most) = range(&fitted.design.observed(response));
+    if output.unit.is_one() && most - least >= CODES {
         return Some(Base::least(1.0));
     }
     let Observed::Column(column) = output.observed else {

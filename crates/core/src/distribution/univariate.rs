@@ -74,6 +74,13 @@ impl Kind {
     }
 }
 
+/// As its name in English.
+impl serde::Serialize for Kind {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name_en)
+    }
+}
+
 /// A parameter as machines read it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Parameter<'d> {

@@ -3,7 +3,7 @@
 use gumption_fault::{Said, say};
 
 /// An operation that is not smooth at the estimates, or comes near a point where it is not.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum Notice {
     /// A staircase: derivative 0 although it jumps.
     Steps {
@@ -94,7 +94,7 @@ pub enum Notice {
 }
 
 /// What a quantity near a pole is used as.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Office {
     /// Argument of this function.
     Argument(&'static str),

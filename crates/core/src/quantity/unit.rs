@@ -47,6 +47,13 @@ impl PartialEq for Unit {
     }
 }
 
+/// A unit is written as it is printed.
+impl serde::Serialize for Unit {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.symbol)
+    }
+}
+
 /// From a numerical value in one unit to that in another: `value · factor + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]

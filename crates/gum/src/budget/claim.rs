@@ -6,7 +6,7 @@ use gumption_format::toml::words;
 use gumption_core::quantity::Unit;
 
 /// What somebody states about one measurand; compared, never used.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Claim {
     /// Index of the measurand.
     pub measurand: usize,
@@ -35,7 +35,7 @@ impl Claim {
 }
 
 /// The method that a claim is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum ClaimedMethod {
     /// The file does not say: GUM is held against it, Monte Carlo is shown beside.
     Unstated,
@@ -48,7 +48,7 @@ pub enum ClaimedMethod {
 }
 
 /// One claimed figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ClaimedFigure {
     /// Which figure.
     pub what: Figure,
@@ -59,7 +59,7 @@ pub struct ClaimedFigure {
 }
 
 /// A figure that can be claimed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub enum Figure {
     /// The estimate y.
     Estimate,
@@ -115,7 +115,7 @@ pub enum Figure {
 
 /// A figure that an analysis found, such as the residual standard deviation of a fit, under the name by which
 /// claims and machines refer to it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct NamedFigure {
     /// `OWNER.figure`, such as `calibration.residual_sd`.
@@ -141,7 +141,7 @@ impl NamedFigure {
 }
 
 /// Which figure of an input or component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Part {
     /// Its estimate.
     Estimate,
@@ -157,6 +157,7 @@ pub enum Part {
 
 words! {
     /// How well the source of a claim is known.
+    #[derive(serde::Serialize)]
     Confidence {
         /// Inputs and figures stand in a source that was read.
         High "high",

@@ -242,6 +242,7 @@ words! {
 
 words! {
     /// The two adaptive procedures.
+    #[derive(serde::Serialize)]
     Adaptive {
         /// Two-stage (Stein) procedure of Wübbeler, Harris, Cox and Elster (2010).
         Stein "stein",

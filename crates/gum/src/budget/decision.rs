@@ -5,7 +5,7 @@
 use gumption_core::distribution::Distribution;
 
 /// Values between two limits; a missing limit is infinite.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Interval {
     /// Lower limit.
     pub lower: f64,

@@ -59,7 +59,7 @@ pub struct Fit {
 }
 
 /// What speaks against a fit that was found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum FitDoubt {
     /// The residuals keep their signs for longer than by chance.
     Pattern {
@@ -135,7 +135,7 @@ pub struct FitParameter {
 }
 
 /// Whether the data could have come from the curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct LackOfFit {
     /// Which test.
     pub test: LackOfFitTest,
@@ -150,7 +150,7 @@ pub struct LackOfFit {
 }
 
 /// A test of the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum LackOfFitTest {
     /// χ² of the residuals against the stated uncertainties.
     ChiSquared,
@@ -159,7 +159,7 @@ pub enum LackOfFitTest {
 }
 
 /// What a test of the curve says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Verdict {
     /// The data contradict the curve at the 5 % level.
     Rejected,

@@ -8,7 +8,7 @@ use super::result::{Basis, Clause8, Evaluation, MeasurandResult};
 use gumption_core::quantity::Rounding;
 
 /// One claimed figure against one obtained figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Comparison {
     /// What is compared, with the claimed number and its tolerance.
@@ -40,7 +40,7 @@ impl Comparison {
 }
 
 /// Which method gave a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Method {
     /// GUM, first order.
     Gum,

@@ -5,6 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use serde_json::Value;
+
 use super::checker::Checker;
 use super::register::Register;
 use super::taken::{Formula, OtherResult, Taken};
@@ -13,7 +15,7 @@ use crate::budget::faults::SAVED_STALE;
 use crate::budget::saved::SavedResults;
 use crate::budget::tables::FileTable;
 use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, TScale, Term};
-use gumption_core::distribution::{Distribution, Parameter};
+use gumption_core::distribution::Distribution;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Said, say};
 use smol_str::{SmolStr, format_smolstr};
@@ -419,15 +421,28 @@ fn same_component(a: &Component, b: &Component) -> bool {
 
 /// Whether two distributions are of one kind and have the same parameters.
 fn same_distribution(a: &Distribution, b: &Distribution, u: f64) -> bool {
-    let same = |(x, y)| match (x, y) {
-        (Parameter::Number(x), Parameter::Number(y)) => near(x, y, u),
-        (Parameter::Numbers(x), Parameter::Numbers(y)) => {
-            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| near(*x, *y, u))
+    match (serde_json::to_value(a), serde_json::to_value(b)) {
+        (Ok(a), Ok(b)) => same_value(&a, &b, u),
+        _ => a == b,
+    }
+}
+
+fn same_value(a: &Value, b: &Value, scale: f64) -> bool {
+    match (a, b) {
+        (Value::Number(x), Value::Number(y)) => match (x.as_f64(), y.as_f64()) {
+            (Some(x), Some(y)) => near(x, y, scale),
+            _ => x == y,
+        },
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same_value(x, y, scale))
         }
-        _ => false,
-    };
-    let [x, y] = [a, b].map(|one| one.parameters().into_iter().map(|(_, value)| value));
-    a.kind().key == b.kind().key && x.zip(y).all(same)
+        (Value::Object(x), Value::Object(y)) => {
+            let same =
+                |(key, x): (&String, &Value)| y.get(key).is_some_and(|y| same_value(x, y, scale));
+            x.len() == y.len() && x.iter().all(same)
+        }
+        _ => a == b,
+    }
 }
 
 /// Whether two files correlate the same components alike.

@@ -3,7 +3,7 @@
 use crate::budget::Interval;
 
 /// What a conformity assessment found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct ConformityResult {
     /// The measured value on which the verdict rests: the reported estimate.
@@ -29,7 +29,7 @@ pub struct ConformityResult {
 }
 
 /// The decision that a rule gives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Verdict {
     /// Accepted.
     Conforming,
@@ -43,7 +43,7 @@ pub enum Verdict {
 }
 
 /// Knowledge of the item that was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Conformance {
     /// Conformance probability p_c, with the knowledge of the process where there is some (JCGM 106 clause 7);
@@ -58,7 +58,7 @@ pub struct Conformance {
 }
 
 /// Risks over all items of a process (JCGM 106 clause 9).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct GlobalRisk {
     /// Probability that an item conforms.

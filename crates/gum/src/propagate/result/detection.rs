@@ -3,7 +3,7 @@
 use crate::budget::Detection;
 
 /// What was found for one measurand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct DetectionResult {
     /// The primary result y.
@@ -38,7 +38,7 @@ impl DetectionResult {
 }
 
 /// Decision threshold and detection limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CharacteristicLimits {
     /// ũ(0): u of a measurement of nothing.
@@ -50,7 +50,7 @@ pub struct CharacteristicLimits {
 }
 
 /// The detection limit, if there is one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub enum DetectionLimit {
     /// Smallest value that is recognised with probability 1 − β.
     Found(f64),
@@ -73,7 +73,7 @@ impl DetectionLimit {
 }
 
 /// The result, truncated at zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct BestEstimate {
     /// ŷ.

@@ -7,7 +7,7 @@ use crate::budget::{FitDoubt, LackOfFit};
 use gumption_core::model::Notice;
 
 /// Something the reader must know before using the numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// Index of the measurand it concerns; `None` = the whole budget.
     pub measurand: Option<usize>,
@@ -16,7 +16,7 @@ pub struct Finding {
 }
 
 /// The kinds of findings; the report has a sentence in each language for every one.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum FindingKind {
     /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order: so much that it is seen at two
     /// digits of u(y), or second order cannot tell.
@@ -196,7 +196,7 @@ pub enum FindingKind {
 }
 
 /// A component that rests on few readings.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct FewReadings {
     /// Its name.
     pub component: String,

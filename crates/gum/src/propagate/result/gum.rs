@@ -3,7 +3,7 @@
 use gumption_core::distribution::Kind;
 
 /// Law of propagation of uncertainty, first order (GUM 5.1.2, 5.2.2).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct Gum {
     /// y = f(x).
     pub estimate: f64,
@@ -20,7 +20,7 @@ pub struct Gum {
 }
 
 /// A line of the budget table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Contribution {
     /// Sensitivity coefficient c = ∂f/∂x.
     pub sensitivity: f64,
@@ -31,11 +31,12 @@ pub struct Contribution {
     /// Share of u²(y), also under correlation (Kessel): c_i Σ_j c_j u(x_i, x_j) / u²(y); sums to 1.
     pub share: f64,
     /// ν of the input or component.
+    #[serde(serialize_with = "gumption_core::distribution::extended::serialize")]
     pub dof: f64,
 }
 
 /// Effective degrees of freedom of u(y).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum Freedom {
     /// Every component has infinite ν (or u is zero).
     Infinite,
@@ -65,7 +66,7 @@ impl Freedom {
 }
 
 /// k, U and the interval of the GUM.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Coverage {
     /// Coverage factor.
     pub k: f64,
@@ -81,7 +82,7 @@ pub struct Coverage {
 }
 
 /// Where k came from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum CoverageBasis {
     /// Normal distribution, ν_eff is infinite or plays no part.
     Normal,
@@ -102,7 +103,7 @@ pub enum CoverageBasis {
 }
 
 /// Second-order terms (note to GUM 5.1.2; JCGM 100:2008/Amd.1:2026 for the estimate).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SecondOrder {
     /// ½ ΣΣ f_ij u(x_i, x_j), to be added to the estimate.
     pub shift: f64,

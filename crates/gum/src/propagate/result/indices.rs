@@ -3,7 +3,7 @@
 use gumption_core::special::normal_upper_quantile;
 
 /// Sensitivity indices of a budget.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SensitivityIndices {
     /// Trials of A and of B.
     pub trials: u64,
@@ -15,7 +15,7 @@ pub struct SensitivityIndices {
 }
 
 /// The indices of one factor, with their standard errors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct SobolIndex {
     /// S.
     pub first: f64,

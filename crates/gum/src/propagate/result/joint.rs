@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::gum::Freedom;
 
 /// Several measurands (JCGM 102).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct JointResult {
     /// Covariance and correlation of the outputs, GUM.
     pub covariance: DMatrix<f64>,
@@ -30,7 +30,7 @@ pub struct JointResult {
 }
 
 /// What k_p of the ellipsoid follows from: whichever gives the larger one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum EllipsoidBy {
     /// ν of the covariance matrix: the normal distribution, or Hotelling's T² for finite ν.
     Matrix,
@@ -39,7 +39,7 @@ pub enum EllipsoidBy {
 }
 
 /// Coverage regions from Monte Carlo (JCGM 102 7.7).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct Regions {
     /// k_p of the ellipsoid with the Monte Carlo covariance that holds a fraction p of the trials.
     pub k_ellipsoid: f64,

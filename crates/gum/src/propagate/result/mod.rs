@@ -54,7 +54,7 @@ impl EvaluatedRow {
 }
 
 /// What both methods found for one budget.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct Evaluation {
     /// One per measurand, in the order of the model's outputs.
     pub results: Vec<MeasurandResult>,
@@ -75,7 +75,7 @@ pub struct Evaluation {
 }
 
 /// Both methods for one measurand.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct MeasurandResult {
     /// First order.
     pub gum: Gum,
@@ -94,7 +94,7 @@ pub struct MeasurandResult {
 }
 
 /// Which method the statement uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Basis {
     /// GUM, first order.
     Gum,

@@ -4,7 +4,7 @@ use super::quasi::Quasi;
 use crate::budget::Adaptive;
 
 /// Monte Carlo results for one measurand.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct MonteCarlo {
     /// Mean; `None` when the moment does not exist or does not converge.
     pub estimate: Option<f64>,
@@ -29,7 +29,7 @@ pub struct MonteCarlo {
 }
 
 /// Mean and standard deviation of trials.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct TrialMoments {
     /// Mean.
     pub estimate: f64,
@@ -38,7 +38,7 @@ pub struct TrialMoments {
 }
 
 /// Counts in equal bins.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Histogram {
     /// Left edge of the first bin.
     pub start: f64,
@@ -49,7 +49,7 @@ pub struct Histogram {
 }
 
 /// How the Monte Carlo method was run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Run {
     /// Trials that were run.
     pub trials: u64,
@@ -64,7 +64,7 @@ pub struct Run {
 }
 
 /// What an adaptive run reached.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct AdaptiveRun {
     /// Which procedure.
@@ -78,7 +78,7 @@ pub struct AdaptiveRun {
 }
 
 /// Why the mean or the standard deviation of an output is not given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum MissingMoments {
     /// As far as the trials reach, the output grows like a power of a component whose t distribution has moments of
     /// order below ν only: no standard deviation for ν ≤ 2·power, no mean for ν ≤ power.
@@ -137,7 +137,7 @@ impl MissingMoments {
 }
 
 /// Which end of the distribution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Side {
     /// The one with the smallest values.
     Lower,
@@ -146,7 +146,7 @@ pub enum Side {
 }
 
 /// What a heavy tail does to the first two moments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Consequence {
     /// Neither mean nor standard deviation exists.
     NoMean,

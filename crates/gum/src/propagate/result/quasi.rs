@@ -1,7 +1,7 @@
 //! What a run with quasi-random points reached, or why there was none.
 
 /// Whether quasi-random points gave the results.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum Quasi {
     /// They did.
     Used(QuasiRun),
@@ -10,7 +10,7 @@ pub enum Quasi {
 }
 
 /// What a run with quasi-random points reached.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct QuasiRun {
     /// Independent scrambles; their points together are the run's trials.
     pub replicates: usize,
@@ -29,7 +29,7 @@ pub struct QuasiRun {
 }
 
 /// Why random trials were run although quasi-random points were asked for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum WhyRandom {
     /// There is more than one measurand.
     SeveralMeasurands,

@@ -1,7 +1,7 @@
 //! What the comparison of both methods finds (JCGM 101:2008, clause 8).
 
 /// GUM-S1 clause 8.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Validation {
     /// Significant digits of u(y): 1 or 2.
     pub digits: u8,
@@ -18,7 +18,7 @@ pub struct Validation {
 }
 
 /// The verdict of GUM-S1 clause 8.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Clause8 {
     /// Neither difference exceeds δ.
     Validated,

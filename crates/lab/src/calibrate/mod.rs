@@ -21,7 +21,9 @@
 //! | `errors`, `agreement` | what stated errors do to the readings; whether residuals are as large as they let expect |
 //! | `identify` | rank, condition, aliases |
 //! | `trouble` | why an experiment gives no coefficients |
+//! | `uneven` | readings that are known to scatter differently, each beside its own standard deviation |
 //! | `swaps`, `signs`, `apart`, `limits`, `pattern` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
+//! | `contradicted` | what is known of parameters beforehand, beside what the readings give without it |
 //! | `size` | how much memory that takes |
 //! | `coefficient`, `residual`, `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |

@@ -55,3 +55,27 @@ fn the_power_of_a_current_warms_the_thermistor_that_it_reads() {
     let variant = &found["effects"][0]["named"][0]["variants"][0];
     assert_eq!(variant["label"], "in proportion to the signal");
 }
+
+/// Along the stem of a thermometer it loses a part of how far it is from its surroundings, and not of how far it is from 0 °C.
+#[test]
+fn a_stem_conducts_from_the_bath_to_the_room() {
+    let mut noise = Noise(93);
+    let mut rows = "bath [°C],R [Ohm],room [°C],depth [mm]\n".to_owned();
+    for row in 0..120 {
+        let bath = [5.0, 30.0, 60.0, 90.0][row % 4];
+        let depth = [40.0, 80.0, 120.0, 160.0, 200.0][row / 4 % 5];
+        let room = 22.0 + 3.0 * libm::sin(0.21 * row as f64) + 0.3 * noise.normal();
+        let shown = bath - (bath - room) * libm::exp(-depth / 45.0);
+        let resistance = 100.0 * (1.0 + 3.9e-3 * shown) + 0.05 * noise.normal();
+        let _ = writeln!(rows, "{bath},{resistance:.4},{room:.3},{depth}");
+    }
+    let case = "equations = \"R = R0*(1 + A*bath)\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nroom = \"covariate\"\ndepth = \"covariate\"\n";
+    let found = diagnosed("stem", &rows, case);
+    assert_eq!(named(&found)[0][0], "immersion", "{found}");
+    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
+    let label = found["effects"][0]["named"][0]["variants"][0]["label"].as_str();
+    assert!(
+        label.is_some_and(|label| label.contains("from room")),
+        "{label:?}"
+    );
+}

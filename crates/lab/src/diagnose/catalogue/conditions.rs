@@ -296,28 +296,50 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
 /// Loss along the stem of a probe, for each column that may be the depth of immersion.
 pub(super) fn stems(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let depths = fitted.numeric().into_iter();
-    depths.filter_map(|column| stem(fitted, column)).collect()
+    depths.flat_map(|column| stem(fitted, column)).collect()
 }
 
-/// Loss along the stem of a probe, which dies away with the depth of immersion.
-fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+/// Loss along the stem of a probe, which dies away with the depth of immersion: in proportion to the signal, or of a thermometer to
+/// how far it is from a temperature of its surroundings.
+fn stem(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let length = fitted.is_like(column, "m") && least >= 0.0 && levels_of(x).len() >= 3;
     if fitted.in_model(column) || !length || !fitted.has_signal() {
-        return None;
+        return Vec::new();
     }
-    let name = fitted.label(column);
-    let unit = fitted.unit(column);
+    let (id, name, unit) = (
+        EffectId::Immersion,
+        fitted.label(column),
+        fitted.unit(column),
+    );
     let (along, began) = (map(x, |x| x - least), fitted.less(column, least));
-    let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
+    let losses = [0.1, 0.2, 0.4, 0.8].map(|part| {
         let depth = five_digits(part * (most - least));
         let label = format!("over {} {unit}", figure(depth));
-        form(
-            label,
-            vec![decay(&along, &began, depth, &fitted.figure(column, depth))],
-        )
+        let shown = fitted.figure(column, depth);
+        (label, decay(&along, &began, depth, &shown))
     });
-    let id = EffectId::Immersion;
-    Some(on_node(fitted, id, name, Node::Gain, forms))
+    let of_signal = losses
+        .iter()
+        .map(|(label, loss)| form(label.clone(), vec![loss.clone()]));
+    let mut cells = vec![on_node(fitted, id, name, Node::Gain, of_signal)];
+    let temperatures = || (fitted.numeric().into_iter()).filter(|c| fitted.is_temperature(*c));
+    let surroundings: Vec<usize> = temperatures().filter(|c| !fitted.in_model(*c)).collect();
+    for probe in temperatures().filter(|c| fitted.in_model(*c)) {
+        let forms = surroundings.iter().flat_map(|around| {
+            let apart = fitted.apart(probe, *around);
+            let with = fitted.label(*around);
+            let own = move |(label, loss): &(String, Modifier)| {
+                let label = format!("{label}, from {with}");
+                form(label, vec![apart.clone().times(loss)])
+            };
+            losses.iter().map(own)
+        });
+        let forms: Vec<Variation> = forms.collect();
+        if !forms.is_empty() {
+            cells.push(on_node(fitted, id, name, Node::Column(probe), forms));
+        }
+    }
+    cells
 }

@@ -397,6 +397,17 @@ impl<'f> FittedModel<'f> {
         self.centred(x).times(&self.centred(z))
     }
 
+    /// The difference of two columns of one dimension, in the unit of the first.
+    pub fn apart(&self, one: usize, other: usize) -> Modifier {
+        let of = |column: usize| &self.case().columns[column].unit;
+        let conversion = of(other).conversion_to(of(one));
+        let in_unit = |x: f64| conversion.as_ref().map_or(x, |to| to.apply(x));
+        let others = self.numbers(other).iter().map(|x| in_unit(*x));
+        let values = self.numbers(one).iter().zip(others).map(|(x, y)| x - y);
+        let text = format!("({} - {})", self.label(one), self.label(other));
+        Modifier::new(values.collect(), text, self.step_unit(one))
+    }
+
     /// The rate of change of a column.
     pub fn rate(&self, column: usize) -> Modifier {
         Modifier::new(

@@ -591,3 +591,24 @@ fn parameters_of_a_fit_are_few_readings_together() {
     assert_eq!(told.len(), 3, "{told:?}");
     close(told.iter().map(|one| one.share).sum(), 1.0, 1e-9);
 }
+
+/// The background of a decision threshold is no gross reading: the result falls where it rises.
+#[test]
+fn a_background_is_no_gross_reading() {
+    let findings = |gross: &str| {
+        let text = format!(
+            "[measurand.a]\nmodel = \"n_g/t - n_0/t\"\nunit = \"1/s\"\n[constant]\nt = \"600 s\"\n[input]\n\
+             n_g = {{ count = 350, prior = \"reciprocal\" }}\nn_0 = {{ count = 270, prior = \"reciprocal\" }}\n\
+             [detection]\ngross = \"{gross}\"\n"
+        );
+        let loaded = crate::budget::read(&text, "test", "".as_ref());
+        let loaded = loaded.unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        let evaluation = gum(&loaded.rows[0].budget);
+        let kinds = kinds(&evaluation).into_iter().cloned();
+        let falling = kinds.filter(|kind| matches!(kind, FindingKind::FallingCarrier { .. }));
+        falling.collect::<Vec<_>>()
+    };
+    assert!(findings("n_g").is_empty());
+    let input = "n_0".to_string();
+    assert_eq!(findings("n_0"), [FindingKind::FallingCarrier { input }]);
+}

@@ -74,6 +74,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::Unseen { .. } => "unseen",
         FindingKind::LargeUncertainty { .. } => "large_uncertainty",
         FindingKind::BelowReference { .. } => "below_reference",
+        FindingKind::FallingCarrier { .. } => "falling_carrier",
         FindingKind::ErrorMeant { .. } => "error_meant",
         FindingKind::IndicationMeant { .. } => "indication_meant",
         FindingKind::CoarseStep { .. } => "coarse_step",
@@ -203,6 +204,9 @@ fn said(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> Sa
             "The expanded uncertainty U is smaller than what {component} alone contributes with the k = {} of its certificate, {}: a result is not known better than its reference. Check k.",
             exact(*k),
             amount(report, measurand, significant(*reference, 2))
+        ),
+        FindingKind::FallingCarrier { input } => say!(
+            "{input} is stated as `gross` in [detection], and the result falls where it rises: it is the background, and the decision threshold is not that of the result. State the input that rises with what is measured."
         ),
         FindingKind::ErrorMeant { .. } | FindingKind::IndicationMeant { .. } => {
             meant::sentence(report, measurand, kind).into()

@@ -157,6 +157,10 @@ impl<'a> Draft<'a> {
                     Some(_) if !clock => say!(
                         "write all numbers of a column alike: all with a decimal point, or all with a decimal comma"
                     ),
+                    // Here an empty field would be refused, too.
+                    None if !field.contains(char::is_alphanumeric) => {
+                        say!("every row needs a number there; remove the rows that are empty")
+                    }
                     _ => mend(field),
                 }
             };

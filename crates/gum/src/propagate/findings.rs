@@ -12,7 +12,7 @@ use super::result::{
 };
 use super::second_order::{self, SecondOrderOutcome, Terms};
 use super::{few_readings, meant, validation};
-use crate::budget::{Budget, FitVerdict, Group, Law, Owner};
+use crate::budget::{Budget, Detection, FitVerdict, Group, Law, Owner};
 use gumption_core::model::Notice;
 use gumption_core::special::normal_two_sided_quantile;
 
@@ -97,6 +97,7 @@ impl Evidence<'_> {
             kinds.extend(self.of_second_order(measurand, doubtful_model));
             kinds.extend(self.of_monte_carlo(measurand));
             kinds.extend(self.of_tolerances(measurand));
+            kinds.extend(self.of_detection(measurand));
             if kinds.iter().any(tells_few_degrees) {
                 kinds.retain(|kind| !matches!(kind, FindingKind::FewDegreesOfFreedom { .. }));
             }
@@ -255,6 +256,18 @@ impl Evidence<'_> {
             .filter(|(stated, _)| stated.measurand == measurand)
             .filter_map(|(stated, found)| meant::other_value(stated, found))
             .collect()
+    }
+
+    /// Whether what is to be the gross reading of a decision threshold is that of the background.
+    fn of_detection(&self, measurand: usize) -> Vec<FindingKind> {
+        let asked = self.budget.detection.iter();
+        let falling = asked.filter(|asked| {
+            asked.measurand == measurand && self.linear.gradient[(measurand, asked.gross)] < 0.0
+        });
+        let kind = |asked: &Detection| FindingKind::FallingCarrier {
+            input: self.budget.inputs[asked.gross].name.to_string(),
+        };
+        falling.map(kind).collect()
     }
 
     fn of_freedom(&self, measurand: usize) -> Vec<FindingKind> {

@@ -618,3 +618,24 @@ fn the_freedom_of_u_does_not_follow_from_what_gives_k() {
         assert_eq!(row.figures(0), reported.figures(), "{rule}");
     }
 }
+
+/// The background of a decision threshold is no gross reading: the result falls where it rises.
+#[test]
+fn a_background_is_no_gross_reading() {
+    let findings = |gross: &str| {
+        let text = format!(
+            "[measurand.a]\nmodel = \"n_g/t - n_0/t\"\nunit = \"1/s\"\n[constant]\nt = \"600 s\"\n[input]\n\
+             n_g = {{ count = 350, prior = \"reciprocal\" }}\nn_0 = {{ count = 270, prior = \"reciprocal\" }}\n\
+             [detection]\ngross = \"{gross}\"\n"
+        );
+        let loaded = crate::budget::read(&text, "test", "".as_ref());
+        let loaded = loaded.unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        let evaluation = gum(&loaded.rows[0].budget);
+        let kinds = kinds(&evaluation).into_iter().cloned();
+        let falling = kinds.filter(|kind| matches!(kind, FindingKind::FallingCarrier { .. }));
+        falling.collect::<Vec<_>>()
+    };
+    assert!(findings("n_g").is_empty());
+    let input = "n_0".to_string();
+    assert_eq!(findings("n_0"), [FindingKind::FallingCarrier { input }]);
+}

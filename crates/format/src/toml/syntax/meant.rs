@@ -167,6 +167,12 @@ impl<'a> Stop<'a> {
         if let Some(parts) = prefix_for_point(marked) {
             return number(spelling(), of_prefix_for_point(parts));
         }
+        if let Some(value) = with_letters(marked) {
+            return number(spelling(), say!("write {number}", number = value));
+        }
+        if let Some(value) = of_groups(marked) {
+            return number(spelling(), say!("write {number}", number = value));
+        }
         if is_calculation(marked) {
             let help = match quotient(marked) {
                 Some(result) => say!("write {result}; formulas stand in a `model`"),
@@ -585,4 +591,39 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
             .label(say!("expected a decimal point"))
             .help(without_comma(number, "")),
     )
+}
+
+/// A number with the letters O, o, l or I in the place of the digits that look like them: 10.3 of `1O.3`.
+fn with_letters(marked: &str) -> Option<String> {
+    let digits: String = marked
+        .chars()
+        .map(|c| match c {
+            'O' | 'o' => '0',
+            'l' | 'I' => '1',
+            c => c,
+        })
+        .collect();
+    let is_number = |text: &str| {
+        let begins = text.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c));
+        begins && text.contains('.') && text.parse::<f64>().is_ok()
+    };
+    // Without a point it may be a unit: `5 l`, `10I`.
+    let has_digit = marked.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c));
+    (has_digit && digits != marked && is_number(&digits)).then_some(digits)
+}
+
+/// A number with a point between groups of three digits and another one: 1000.5 of `1.000.5`.
+fn of_groups(marked: &str) -> Option<String> {
+    let mut parts: Vec<&str> = marked.split('.').collect();
+    let decimals = parts.pop()?;
+    let (first, groups) = parts.split_first()?;
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let front = first.trim_start_matches(['+', '-']);
+    let is_grouped = !groups.is_empty() && groups.iter().all(|group| group.len() == 3);
+    let is_number = [front, decimals]
+        .into_iter()
+        .chain(groups.iter().copied())
+        .all(are_digits);
+    (is_grouped && is_number && front.len() <= 3)
+        .then(|| format!("{first}{}.{decimals}", groups.concat()))
 }

@@ -166,6 +166,23 @@ impl Checker<'_> {
         let Some(reliability) = &table.reliability else {
             return Some(f64::INFINITY);
         };
+        // More than u itself is no doubt about u, but a number of percent.
+        if reliability.value > 1.0 {
+            let fault = Fault::new(
+                DOF,
+                reliability.span.clone(),
+                say!("a reliability of {}", reliability.value),
+            );
+            let fault = fault.label(say!("expected a number between 0 and 1"));
+            return self.refuse(match reliability.value < 100.0 {
+                true => fault.help(say!(
+                    "for {} % write {}",
+                    reliability.value,
+                    show(reliability.value / 100.0)
+                )),
+                false => fault,
+            });
+        }
         // GUM G.4.2, equation (G.3).
         self.positive(reliability, "reliability")
             .map(|ratio| 0.5 / (ratio * ratio))

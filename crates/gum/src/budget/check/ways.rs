@@ -373,6 +373,10 @@ impl Checker<'_> {
         let kind = match way {
             Readings | Groups | GroupSummary | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
+            // A study of readings that was evaluated elsewhere is one of readings.
+            U if table.kind.as_ref().map(|word| word.value) == Some(Evaluation::TypeA) => {
+                Kind::Repeatability
+            }
             ResidualOf => self.fit_named(table).map_or(Kind::Other, Kind::Scatter),
             _ => Kind::Other,
         };

@@ -164,7 +164,10 @@ fn parts_of(specification: &str) -> String {
                 format!("range = \"{share}\", span = \"…\"")
             }
             Some(share) => format!("reading = \"{share}\""),
-            None if says(&["digit", "dgt", "count", "lsd", "字"]) => {
+            // A `d` alone is a digit of the display, and no day.
+            None if says(&["digit", "dgt", "count", "lsd", "字"])
+                || lower.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ') == "d" =>
+            {
                 let number = number.trim_end_matches(char::is_alphabetic);
                 format!("counts = {number}, step = \"…\"")
             }

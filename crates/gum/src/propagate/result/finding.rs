@@ -132,6 +132,11 @@ pub enum FindingKind {
         /// k times its contribution.
         reference: f64,
     },
+    /// The measurand falls where the input rises that is to carry it to other values: it is the background.
+    FallingCarrier {
+        /// Name of the input.
+        input: String,
+    },
     /// A value that does not conform is compared with its nominal and lies nearer to zero: it may be the error of
     /// indication, which is compared with zero.
     ErrorMeant {

@@ -406,6 +406,23 @@ fn the_larger_of_resolution_and_repeatability() {
     );
 }
 
+/// A study of readings that was evaluated elsewhere is stated as u of type A: a gauge study (VDA 5) has its figures so.
+#[test]
+fn a_stated_repeatability_is_one() {
+    let labels = |repeatability: &str, step: f64| {
+        let parts = one(&format!(
+            "components = [{{ name = \"EVR\", u = {repeatability} }}, {{ name = \"RE\", step = {step} }}]\nvalue = 20"
+        ));
+        let found = budget(&format!("[conventions]\nresolution = \"largest\"\n{parts}"));
+        let labels = found.components.iter().map(|one| one.label.to_string());
+        labels.collect::<Vec<_>>()
+    };
+    assert_eq!(labels("0.0002, type = \"A\"", 0.001), ["RE"]);
+    assert_eq!(labels("0.002, type = \"A\"", 0.001), ["EVR"]);
+    // Of another type it is no repeatability.
+    assert_eq!(labels("0.0002", 0.001), ["EVR", "RE"]);
+}
+
 #[test]
 fn directions_beside_each_other_are_told() {
     let vector = |values: &str| {

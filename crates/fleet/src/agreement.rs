@@ -147,7 +147,7 @@ enum Against<'v> {
     /// Stated references.
     References(&'v Values, &'v Values),
     /// The others of the group, of which some agree.
-    Others(&'v Values, Others<'v>, Vec<bool>),
+    Others(&'v Values, Box<Others<'v>>, Vec<bool>),
 }
 
 /// A row beside what it is held against.
@@ -177,7 +177,7 @@ impl<'v> Against<'v> {
         let agreeing = agreeing.filter(|(_, agrees)| **agrees);
         let agreeing: Vec<usize> = agreeing.map(|(row, _)| *row).collect();
         let others = Others::of(values, &agreeing, members.median, devices);
-        Against::Others(values, others, agrees)
+        Against::Others(values, Box::new(others), agrees)
     }
 
     /// A row, by its place among those of the group that weigh; nothing of one that cannot be tested.

@@ -10,6 +10,7 @@ use super::gain::Gain;
 use super::scatter::{Part, ResponseScatter, Scatters};
 use super::stack::Stack;
 use gumption_core::least_squares::Solution;
+use gumption_core::statistics::norm;
 
 /// The readings of a response whose standard deviations are not those with which the fit has weighted them.
 pub(super) struct Uneven {
@@ -85,7 +86,9 @@ fn stated(stack: &Stack<'_>, solution: &Solution) -> Vec<f64> {
 fn by_itself(way: Scatter, scatter: &ResponseScatter, u: f64, stated: f64) -> f64 {
     match (way, scatter.part) {
         (Scatter::Residuals, Part::Whole) => scatter.relative * u,
-        (Scatter::Residuals, Part::Rest) => (scatter.own * u / scatter.unit).hypot(stated),
+        (Scatter::Residuals, Part::Rest) => {
+            norm([scatter.own * u / scatter.unit, stated].into_iter())
+        }
         _ => stated,
     }
 }

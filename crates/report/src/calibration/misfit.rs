@@ -6,6 +6,7 @@ use crate::number::{NONE, aligned, freedom, significant};
 use crate::phrase::{plural, section, table};
 use crate::remarks::REMARK;
 use crate::symbol;
+use gumption_core::statistics::norm;
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -228,7 +229,8 @@ fn contradicted(campaign: &Campaign, one: &Contradicted, l: Language) -> String 
     let shown = |[value, u]: [f64; 2]| with_unit(&aligned(value, u, DIGITS), &unit);
     let [stated, found] = [shown(one.stated), shown(one.found)];
     let [u_stated, u_found] = u.map(|u| with_unit(&significant(u, DIGITS), &unit));
-    let times = significant((one.stated[0] - one.found[0]).abs() / u[0].hypot(u[1]), 2);
+    let difference = (one.stated[0] - one.found[0]).abs();
+    let times = significant(difference / norm(u.into_iter()), 2);
     say!("{name} is stated as {stated} with u = {u_stated}, and the readings without that give {found} with u = {u_found}: the difference is {times} times its standard uncertainty. What is stated, the readings or the equations are wrong; the figures above are neither the one nor the other, and their scatter has the difference in it.").in_language(l)
 }
 

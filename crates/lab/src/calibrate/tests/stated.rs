@@ -218,7 +218,11 @@ fn a_reading_within_its_own_uncertainty_does_not_stand_apart() {
             let u = if at % 5 == 4 { 1.0 } else { 0.02 };
             // Signs that change, sizes between 0.4 u and 1.2 u.
             let size = 0.4 + 0.8 * ((at * 7) % 10) as f64 / 9.0;
-            let sign = if (at * at / 3) % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if (at * at / 3).is_multiple_of(2) {
+                1.0
+            } else {
+                -1.0
+            };
             let error = if at == bad { by } else { sign * size * u };
             format!("{at},{},{u}\n", 1.0 + 2.0 * at as f64 + error)
         };

@@ -75,7 +75,7 @@ fn a_stem_conducts_from_the_bath_to_the_room() {
     assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
     let label = found["effects"][0]["named"][0]["variants"][0]["label"].as_str();
     assert!(
-        label.is_some_and(|label| label.contains("from room")),
+        label.is_some_and(|label| label.contains("towards room")),
         "{label:?}"
     );
 }

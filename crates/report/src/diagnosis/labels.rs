@@ -58,7 +58,7 @@ const FIXED: [(&str, &str); 36] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 23] = [
+const FORMS: [([&str; 2], [&str; 2]); 24] = [
     (["", " % of the range"], ["", " % 量程"]),
     (["half at ", ""], ["半值点 ", ""]),
     (["period ", ""], ["周期 ", ""]),
@@ -77,6 +77,7 @@ const FORMS: [([&str; 2], [&str; 2]); 23] = [
     (["dying away over ", ""], ["衰减，特征宽度 ", ""]),
     (["growing over ", ""], ["增长，特征宽度 ", ""]),
     (["over ", ""], ["特征宽度 ", ""]),
+    (["towards ", ""], ["趋向 ", ""]),
     (["row ", ""], ["第 ", " 行"]),
     (["rows ", ""], ["第 ", " 行"]),
     (["from ", " on"], ["自 ", " 起"]),

@@ -331,7 +331,7 @@ fn stem(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             let apart = fitted.apart(probe, *around);
             let with = fitted.label(*around);
             let own = move |(label, loss): &(String, Modifier)| {
-                let label = format!("{label}, from {with}");
+                let label = format!("{label}, towards {with}");
                 form(label, vec![apart.clone().times(loss)])
             };
             losses.iter().map(own)

@@ -13,6 +13,7 @@
 //! | `absorbed` | what the parameters take away from a regressor |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
+//! | `order` | whether the order of the rows says something |
 //! | `response`, `powers`, `limits`, `history`, `ringing`, `slewing` | what a stimulus does otherwise than declared |
 //! | `course`, `earlier` | how columns move between the rows, and what lags behind; what they were a time before |
 //! | `delays` | an output that follows what a column was or will be |

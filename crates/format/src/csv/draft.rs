@@ -116,8 +116,8 @@ impl<'a> Draft<'a> {
         // Times that cannot be read are so in every row of the column: one says it.
         let is_time = read.is_none() && is_like_a_time(field);
         let (shown, expected) = match is_time {
-            true => (1, "a time of a known form"),
-            false => (SHOWN, "a number"),
+            true => (1, say!("a time of a known form")),
+            false => (SHOWN, say!("a number")),
         };
         if self.faults.len() < shown {
             let help = match read {
@@ -126,7 +126,7 @@ impl<'a> Draft<'a> {
                 ),
                 None => mend(field),
             };
-            let fault = self.no_number(sheet, row, expected.into(), help);
+            let fault = self.no_number(sheet, row, expected, help);
             self.faults.push(fault);
         }
     }

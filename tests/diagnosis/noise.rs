@@ -296,7 +296,10 @@ fn operators_that_scatter_unlike_one_another_have_a_u_of_their_own() {
     }
     // One u for all of them would take the last one for wrong readings and effects.
     assert!(alarms < 2, "{alarms} alarms of 10");
-    let folder = folder("operators");
+    let folder = folder("operators-told");
+    std::fs::write(folder.join("recording.csv"), operators(90)).unwrap();
+    let case = format!("recording = \"recording.csv\"\n{case}");
+    std::fs::write(folder.join("case.toml"), case).unwrap();
     let (_, text) = gumption(&folder, &["diagnose", "case.toml"]);
     assert!(
         text.contains("differing from operator to operator"),

@@ -314,27 +314,30 @@ fn stem(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         fitted.unit(column),
     );
     let (along, began) = (map(x, |x| x - least), fitted.less(column, least));
-    let losses = [0.1, 0.2, 0.4, 0.8].map(|part| {
-        let depth = five_digits(part * (most - least));
-        let label = format!("over {} {unit}", figure(depth));
-        let shown = fitted.figure(column, depth);
-        (label, decay(&along, &began, depth, &shown))
-    });
-    let of_signal = losses
-        .iter()
-        .map(|(label, loss)| form(label.clone(), vec![loss.clone()]));
+    let loss = |depth: f64| decay(&along, &began, depth, &fitted.figure(column, depth));
+    let label = |depth: f64| format!("over {} {unit}", figure(depth));
+    let depths = [0.1, 0.2, 0.4, 0.8].map(|part| five_digits(part * (most - least)));
+    let of_signal = |depth: f64| Term::new(Node::Gain, loss(depth));
+    let sharp = sharpened(fitted, depths.to_vec(), &of_signal).into_iter();
+    let of_signal = sharp.map(five_digits);
+    let of_signal = of_signal.map(|depth| form(label(depth), vec![loss(depth)]));
     let mut cells = vec![on_node(fitted, id, name, Node::Gain, of_signal)];
     let temperatures = || (fitted.numeric().into_iter()).filter(|c| fitted.is_temperature(*c));
     let surroundings: Vec<usize> = temperatures().filter(|c| !fitted.in_model(*c)).collect();
     for probe in temperatures().filter(|c| fitted.in_model(*c)) {
         let forms = surroundings.iter().flat_map(|around| {
             let apart = fitted.apart(probe, *around);
+            let lost = |depth: f64| apart.times(&loss(depth));
+            let of_probe = |depth: f64| Term::new(Node::Column(probe), lost(depth));
+            let sharp = sharpened(fitted, depths.to_vec(), &of_probe).into_iter();
             let with = fitted.label(*around);
-            let own = move |(label, loss): &(String, Modifier)| {
-                let label = format!("{label}, towards {with}");
-                form(label, vec![apart.clone().times(loss)])
+            let own = |depth: f64| {
+                form(
+                    format!("{}, towards {with}", label(depth)),
+                    vec![lost(depth)],
+                )
             };
-            losses.iter().map(own)
+            sharp.map(five_digits).map(own).collect::<Vec<Variation>>()
         });
         let forms: Vec<Variation> = forms.collect();
         if !forms.is_empty() {

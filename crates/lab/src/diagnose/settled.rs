@@ -104,7 +104,14 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
         return Ok((fit, seen));
     };
     let claimed = spread_out(design, &weighted);
-    Ok((weighted, claimed))
+    match claimed.is_spread_out() {
+        true => Ok((weighted, claimed)),
+        // Weights that do not hold beside the fit that they give are none.
+        false => {
+            let even = estimated(design, &fit);
+            Ok((fit, even))
+        }
+    }
 }
 
 /// The noise that a model leaves, where it grows with the reading or differs from label to label.

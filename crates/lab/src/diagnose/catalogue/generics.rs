@@ -27,8 +27,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let nodes = fitted.offset_and_scale();
     let turning = turning(fitted);
     let columns = fitted.numeric().into_iter().chain(angles(fitted));
-    // Of rows that may stand in any order nothing goes on from one to the next.
-    let time = fitted.is_ordered().then_some(None);
+    // Of rows that were sorted by what was read nothing goes on from one to the next.
+    let time = (!fitted.is_sorted_by_reading()).then_some(None);
     for column in columns.map(Some).chain(time) {
         let (name, course) = fitted.course(column);
         let course = evened(course);

@@ -125,7 +125,9 @@ pub(crate) fn read(source: impl Read, name: &str, wanted: &Wanted) -> Result<Res
     let layout = layout(&head, wanted).map_err(in_first)?;
     let is_number = |at| layout.numbers().any(|one| one == at);
     let doubts = csv::two_decimal_signs(&head, is_number).into_iter();
-    let doubts: Vec<Fault> = doubts.chain(csv::mean_of_rows(&head, is_number)).collect();
+    let doubts: Vec<Fault> = doubts
+        .chain(csv::summary_of_rows(&head, is_number))
+        .collect();
     if !doubts.is_empty() {
         return Err(in_first(doubts));
     }
@@ -160,7 +162,7 @@ pub(crate) fn read_columns(
     let head = Sheet::new(&text).map_err(|fault| refused(vec![*fault]))?;
     let layout = layout(&head, wanted).map_err(refused)?;
     let is_number = |at| layout.numbers().any(|one| one == at);
-    if let Some(doubt) = csv::mean_of_columns(columns, &head, is_number) {
+    if let Some(doubt) = csv::summary_of_columns(columns, &head, is_number) {
         return Err(refused(vec![doubt]));
     }
     let mut results = Results::of(&layout);

@@ -237,15 +237,15 @@ impl<'a> Draft<'a> {
 
     /// Whether a column that should hold numbers has words in all its rows.
     fn holds_words(&self) -> bool {
-        /// One word alone is a slip.
+        /// One word is a slip, and two may be; nothing but the words of the message depends on it.
         const SEVERAL: usize = 3;
         let has_none = self.numbers.iter().all(|number| number.is_nan());
         let is_number_with_more = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
-        let is_word = self.first_refused.as_deref();
+        let first = self.first_refused.as_deref();
         self.content == Content::Numbers
             && has_none
             && self.refused >= SEVERAL
-            && is_word.is_some_and(|text| !is_number_with_more(text))
+            && first.is_some_and(|text| !is_number_with_more(text))
     }
 
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {

@@ -67,7 +67,7 @@ pub use reader::{headings, no_column};
 pub use request::{Content, Request};
 pub use sheet::{BadRow, Row, RowFields, Sheet};
 pub use source::{absent, open, text_of};
-pub use summary::{mean_of_columns, mean_of_rows};
+pub use summary::{summary_of_columns, summary_of_rows};
 
 use std::collections::BTreeSet;
 

@@ -94,14 +94,14 @@ fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
 /// A line at the end whose numbers are the means or the sums of those above, in a table of which each row is something of its own: where no
 /// column but those of numbers tells its rows apart, it has a word in one of the others. One that is called so may have few
 /// digits, and two rows above.
-pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
+pub fn summary_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
     let rows = || sheet.rows().filter_map(Result::ok);
     let place = |row: &Row<'_>, column| sheet.place(row, column);
-    mean_among((sheet, has_numbers), rows().last()?, rows, place)
+    summary_among((sheet, has_numbers), rows().last()?, rows, place)
 }
 
 /// The same of a table in memory, of which `head` is the line of names: there a line has no place but below them.
-pub fn mean_of_columns(
+pub fn summary_of_columns(
     columns: &Columns<'_>,
     head: &Sheet<'_>,
     has_numbers: impl Fn(usize) -> bool,
@@ -112,11 +112,11 @@ pub fn mean_of_columns(
     let last = count.checked_sub(1).filter(|last| *last < MOST)?;
     let rows = || (0..count).map(|at| columns.row(at));
     let place = |_: &Row<'_>, column| head.name_place(column);
-    mean_among((head, has_numbers), columns.row(last), rows, place)
+    summary_among((head, has_numbers), columns.row(last), rows, place)
 }
 
 /// The same of these rows, of which the last is at hand; `place` is where a field of a row stands.
-fn mean_among<'r, R: Iterator<Item = Row<'r>>>(
+fn summary_among<'r, R: Iterator<Item = Row<'r>>>(
     (sheet, has_numbers): (&Sheet<'_>, impl Fn(usize) -> bool),
     last: Row<'r>,
     rows: impl Fn() -> R,
@@ -237,7 +237,7 @@ mod tests {
     fn a_line_of_means_is_told_by_its_numbers_and_its_name() {
         let found = |text: &str| {
             let sheet = Sheet::new(text).expect("a table");
-            let fault = mean_of_rows(&sheet, |at| at > 0);
+            let fault = summary_of_rows(&sheet, |at| at > 0);
             fault.map(|fault| text[fault.span].to_owned())
         };
         let rows = "label,V,R\nS1,1.001,100.01\nS2,1.004,100.02\nS3,1.002,100.06\n";
@@ -296,7 +296,7 @@ mod tests {
             let columns = Columns::new(vec![labels, ("R".to_owned(), numbers(last))]);
             let (columns, head) = (columns.expect("of equal length"), "label,R\n");
             let head = Sheet::new(head).expect("names");
-            mean_of_columns(&columns, &head, |at| at > 0).map(|fault| fault.span)
+            summary_of_columns(&columns, &head, |at| at > 0).map(|fault| fault.span)
         };
         assert_eq!(found("mean", 156.0), Some(0..5));
         assert_eq!((found("d5", 156.0), found("mean", 157.0)), (None, None));

@@ -135,7 +135,7 @@ impl<'f> BatchFile<'f> {
         faults.extend(series::set_twice(&file, &columns.names, &targets));
         let sets = |at: usize| matches!(targets[at], Some(Column::Path(_)));
         faults.extend(csv::two_decimal_signs(sheet, sets));
-        faults.extend(csv::mean_of_rows(sheet, sets));
+        faults.extend(csv::summary_of_rows(sheet, sets));
         if !faults.is_empty() {
             return Err(in_table(faults));
         }
@@ -284,7 +284,7 @@ impl Batch<'_> {
     /// A line at the end of columns whose numbers are the means of those above.
     pub(crate) fn mean_of(&self, columns: &csv::Columns<'_>, head: &Sheet<'_>) -> Option<Fault> {
         let sets = |at: usize| matches!(self.targets[at], Some(Column::Path(_)));
-        csv::mean_of_columns(columns, head, sets)
+        csv::summary_of_columns(columns, head, sets)
     }
 
     /// The column of labels, where there is one.

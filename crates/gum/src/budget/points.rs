@@ -13,7 +13,7 @@ use super::series::{Ground, HeadUnit, LABEL, WrittenRow};
 use super::tables::SeriesTable;
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{
-    Heading, Row, Sheet, mean_of_rows, mend_of_number, overload, text_of, two_decimal_signs,
+    Heading, Row, Sheet, mend_of_number, overload, summary_of_rows, text_of, two_decimal_signs,
 };
 use gumption_format::toml::{Raw, Stated, number};
 
@@ -235,7 +235,7 @@ impl Points {
         let mut rows = Vec::new();
         let is_value = |at: usize| columns.names[at].value != LABEL;
         let mut faults: Vec<Fault> = two_decimal_signs(&sheet, is_value).into_iter().collect();
-        faults.extend(mean_of_rows(&sheet, is_value));
+        faults.extend(summary_of_rows(&sheet, is_value));
         let visited = sheet.visit(|row| {
             let fields = columns.written(row, &sheet).into_iter();
             rows.push(PointRow {

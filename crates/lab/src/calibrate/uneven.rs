@@ -10,7 +10,7 @@ use super::gain::Gain;
 use super::scatter::{Part, ResponseScatter, Scatters};
 use super::stack::Stack;
 use gumption_core::least_squares::Solution;
-use gumption_core::statistics::norm;
+use gumption_core::statistics::{norm, range};
 
 /// The readings of a response whose standard deviations are not those with which the fit has weighted them.
 pub(super) struct Uneven {
@@ -44,9 +44,8 @@ pub(super) fn uneven(
     for (response, scatter) in responses() {
         let rows = stack.rows_of(response);
         let by_itself = |row: usize| by_itself(scatters.way, scatter, u[row], stated[row]);
-        let ratios: Vec<f64> = rows.iter().map(|row| by_itself(*row) / u[*row]).collect();
-        let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let differs = least > 0.0 && ratios.iter().any(|ratio| *ratio > least * (1.0 + ALIKE));
+        let (least, most) = range(rows.iter().map(|row| by_itself(*row) / u[*row]));
+        let differs = least > 0.0 && most > least * (1.0 + ALIKE);
         for row in &rows {
             own[*row] = match differs {
                 true => by_itself(*row),

@@ -1,7 +1,7 @@
 //! Words that people try for keys.
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 183] = [
+pub const SYNONYMS: [(&str, &str); 184] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("semi_range", "half_width"),
@@ -142,6 +142,7 @@ pub const SYNONYMS: [(&str, &str); 183] = [
     ("规范", "profile"),
     ("方法", "method"),
     ("备注", "note"),
+    ("decision", "conformity"),
     ("符合性", "conformity"),
     ("符合性判定", "conformity"),
     ("相关", "correlation"),

@@ -181,15 +181,18 @@ fn columns_that_are_not_told_apart() {
 
 #[test]
 fn long_lists_of_faults_are_cut_and_counted() {
-    let text = format!("a\n{}", "x\n".repeat(12));
-    let faults = faults(&text, &[Request::numbers("a", "a")]);
-    assert_eq!(faults.len(), 5);
-    assert!(
-        faults[4]
-            .message
-            .to_string()
-            .ends_with("7 more fields of the column are no numbers")
-    );
+    let of = |text: &str| faults(text, &[Request::numbers("a", "a")]);
+    let some = of(&format!("a\n1\n{}", "x\n".repeat(12)));
+    assert_eq!(some.len(), 5);
+    let last = some[4].message.to_string();
+    assert!(last.ends_with("7 more fields of the column are no numbers"));
+    // A column of nothing but words is told once, with what it may be.
+    let all = of(&format!("a\n{}", "x\n".repeat(12)));
+    assert_eq!(all.len(), 1);
+    let only = all[0].message.to_string();
+    assert!(only.ends_with("11 more fields of the column are no numbers"));
+    let help = all[0].help.as_ref().map(ToString::to_string);
+    assert!(help.is_some_and(|help| help.contains("[columns] a = \"run\"")));
 }
 
 #[test]

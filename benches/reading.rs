@@ -8,7 +8,8 @@
 //! fifths, the compilation of the formula a fifth, and the tables and checks of each input the rest.
 //!
 //! ```text
-//! cargo bench --bench reading
+//! cargo bench --bench reading             # all of them
+//! cargo bench --bench reading -- inputs   # those with a part in their name
 //! ```
 
 mod common;
@@ -16,7 +17,7 @@ mod common;
 use std::fmt::Write;
 use std::path::Path;
 
-use common::cpu_time;
+use common::{cpu_time, words};
 use gumption::budget;
 use toml::de::DeTable;
 
@@ -36,7 +37,10 @@ fn main() {
         "{:28} {:>12} {:>12} {:>7}",
         "ms of CPU time", "gumption", "TOML alone", "ratio"
     );
-    for (name, text) in cases {
+    let parts: Vec<String> = words().collect();
+    let wanted =
+        |name: &str| parts.is_empty() || parts.iter().any(|part| name.contains(part.as_str()));
+    for (name, text) in cases.into_iter().filter(|(name, _)| wanted(name)) {
         let whole = || drop(budget::read(&text, "large.toml", Path::new("")).expect("a budget"));
         let parser = || drop(DeTable::parse(&text).expect("TOML"));
         let ways: [&dyn Fn(); 2] = [&whole, &parser];

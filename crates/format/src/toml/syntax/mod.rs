@@ -48,7 +48,10 @@ fn is_name(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> bool {
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
 pub fn syntax_faults(errors: &[toml::de::Error], text: &str, synonyms: &Synonyms) -> Vec<Fault> {
-    if !errors.is_empty() && text.trim_start().starts_with('{') {
+    if errors.is_empty() {
+        return Vec::new();
+    }
+    if text.trim_start().starts_with('{') {
         return vec![json(text)];
     }
     let mut faults: Vec<Fault> = Vec::new();

@@ -82,8 +82,13 @@ impl Spread {
 
     /// Standard uncertainty at a modelled value, relative to that at the root mean square of all.
     pub fn at(&self, value: f64) -> f64 {
+        self.variance(value).sqrt()
+    }
+
+    /// Its square.
+    fn variance(&self, value: f64) -> f64 {
         let part = value / self.level;
-        (1.0 - self.share + self.share * part * part).sqrt()
+        1.0 - self.share + self.share * part * part
     }
 
     /// With the standard uncertainty where [`Spread::at`] is one, in the unit of the response.
@@ -175,34 +180,43 @@ pub(super) fn estimate(
 
 /// −2 ln L of the differences, with the scale that fits best.
 fn grown(differences: &[Difference], spread: &Spread) -> f64 {
-    let squares = differences.iter().map(|difference| {
-        let relative = difference.size / spread.at(difference.value);
-        relative * relative
-    });
-    let squares: Vec<f64> = squares.collect();
-    let widths = differences
-        .iter()
-        .map(|one| libm::log(spread.at(one.value)));
-    2.0 * widths.sum::<f64>() + misfit(&squares, scale(&squares))
+    let variances = differences.iter().map(|one| spread.variance(one.value));
+    let variances: Vec<f64> = variances.collect();
+    let squares = differences.iter().zip(&variances);
+    let squares: Vec<f64> = squares
+        .map(|(one, variance)| one.size * one.size / variance)
+        .collect();
+    let widths = variances.iter().map(|variance| libm::log(*variance));
+    widths.sum::<f64>() + misfit(&squares, scale(&squares))
 }
 
 /// −2 ln L of differences with these squares, for such a squared scale.
 pub(super) fn misfit(squares: &[f64], scale: f64) -> f64 {
-    let each = (squares.iter())
-        .map(|square| libm::log(scale) + (TAILS + 1.0) * libm::log1p(square / (TAILS * scale)));
-    each.sum()
+    let beyond = |square: &f64| libm::log1p(square / (TAILS * scale));
+    let tails = squares.iter().map(beyond).sum::<f64>();
+    squares.len() as f64 * libm::log(scale) + (TAILS + 1.0) * tails
 }
 
-/// Squared scale of Student's distribution by maximum likelihood; each step adds to the likelihood.
+/// Squared scale of Student's distribution by maximum likelihood: a mean with weights (ν + 1)/(ν + z²), which are those at the scale
+/// before. Each step adds to the likelihood (Kent, Tyler and Vardi 1994).
 pub(super) fn scale(squares: &[f64]) -> f64 {
     const STEPS: u8 = 30;
-    let count = squares.len() as f64;
-    let mut scale = squares.iter().sum::<f64>() / count;
+    /// Rounding of sums.
+    const SAME: f64 = 1e-12;
+    let mut scale = squares.iter().sum::<f64>() / squares.len() as f64;
     for _ in 0..STEPS {
-        let weighted = squares
-            .iter()
-            .map(|square| (TAILS + 1.0) * square / (TAILS + square / scale));
-        scale = weighted.sum::<f64>() / count;
+        let before = scale;
+        let [mut weighted, mut weights] = [0.0; 2];
+        for square in squares {
+            let weight = 1.0 / (TAILS * before + square);
+            weighted += weight * square;
+            weights += weight;
+        }
+        scale = weighted / weights;
+        // None at all where all differences are zero.
+        if !((scale - before).abs() > SAME * before) {
+            break;
+        }
     }
     scale
 }

@@ -108,9 +108,10 @@ pub const PROFILES: &[Profile] = &[
     },
     Profile {
         name: "ILAC",
-        changes: |_| {},
-        en: "As GUM: coverage probability about 95 %, y ± U with k beside it, two digits of U; reported as accredited laboratories do.",
-        zh: "同 GUM：包含概率约 95 %，报告 y ± U 及 k，U 取两位有效数字；按认可实验室的要求报告。",
+        changes: |c| c.confirmation = Confirmation::Moments,
+        en: "As GUM: coverage probability about 95 %, y ± U with k beside it, two digits of U; reported as accredited laboratories do. k·u_c \
+             stands as soon as Monte Carlo confirms y and u, with u = s/√n for few readings.",
+        zh: "同 GUM：包含概率约 95 %，报告 y ± U 及 k，U 取两位有效数字；按认可实验室的要求报告。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
         source: "ILAC-P14:09/2020, clause 5; JCGM 100:2008",
         certified_en: "The uncertainty was evaluated in accordance with JCGM 100:2008 and is reported as ILAC-P14:09/2020 requires.",
         certified_zh: "不确定度按 JCGM 100:2008 评定，按 ILAC-P14:09/2020 的要求报告。",
@@ -118,12 +119,14 @@ pub const PROFILES: &[Profile] = &[
     Profile {
         name: "CNAS",
         changes: |c| {
-            c.coverage_factor = CoverageRule::StudentT;
+            c.confirmation = Confirmation::Moments;
             c.statement = StatementForm::Apart;
         },
-        en: "Coverage probability 95 %, stated beside U and k; k from the t distribution at the effective degrees of freedom; two digits, rounded half to even (GB/T 8170).",
-        zh: "包含概率 95 %，与 U 和 k 一并给出；k 由有效自由度按 t 分布确定；不确定度取两位有效数字，按 GB/T 8170 修约。",
-        source: "CNAS-CL01-G003; JJF 1059.1-2012",
+        en: "Coverage probability 95 %, stated beside U and k; k from the t distribution at the effective degrees of freedom, or from the output \
+             distribution when a non-normal component dominates; two digits, rounded half to even (GB/T 8170). k·u_c stands as soon as Monte Carlo \
+             confirms y and u, with u = s/√n for few readings.",
+        zh: "包含概率 95 %，与 U 和 k 一并给出；k 由有效自由度按 t 分布确定，非正态分量占优时由输出量分布确定；不确定度取两位有效数字，按 GB/T 8170 修约。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
+        source: "CNAS-CL01-G003; JJF 1059.1-2012, 4.5",
         certified_en: "The uncertainty was evaluated in accordance with JJF 1059.1-2012 and is reported as CNAS-CL01-G003 requires.",
         certified_zh: "不确定度按 JJF 1059.1-2012 评定，按 CNAS-CL01-G003 的要求报告。",
     },

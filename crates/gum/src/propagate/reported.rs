@@ -544,10 +544,18 @@ mod tests {
         assert_eq!((reported.u, reported.expanded()), (Some(1.2), Some(2.4)));
     }
 
-    /// M3003, appendix B: k from t at the effective degrees of freedom multiplies u, as EA-4/02 has it.
+    /// M3003, appendix B: k from t at the effective degrees of freedom multiplies u, as EA-4/02 has it; ILAC-P14, 5.4, and CNAS-CL01-G003
+    /// want k beside U.
     #[test]
     fn guides_that_multiply_u_by_k_ask_for_y_and_u_alone() {
-        for (name, multiplies) in [("UKAS", true), ("EA", true), ("GUM", false), ("S1", false)] {
+        for (name, multiplies) in [
+            ("UKAS", true),
+            ("EA", true),
+            ("ILAC", true),
+            ("CNAS", true),
+            ("GUM", false),
+            ("S1", false),
+        ] {
             let rule = profile_named(name).expect("a profile").conventions();
             let mc = monte_carlo([-2.6, 2.6], [-2.6, 2.6], 0.0);
             let reported = result(Clause8::NotValidated, 1.02, mc).reported(&rule);

@@ -47,7 +47,7 @@ impl Compared<'_> {
 }
 
 /// A rounded value with what it was before.
-pub(super) fn with_unrounded(rounded: &str, in_full: Option<&str>, l: Language) -> String {
+pub fn with_unrounded(rounded: &str, in_full: Option<&str>, l: Language) -> String {
     match in_full {
         None => rounded.to_owned(),
         Some(full) => say!("{rounded} (unrounded {full})").in_language(l),

@@ -109,6 +109,18 @@ impl Assessment<'_> {
         }
     }
 
+    /// The measured values that are accepted, where a guard band makes them others than those inside the tolerance.
+    pub(super) fn guarded(&self) -> Option<String> {
+        let is_guarded = self.found.acceptance != Some(self.stated.tolerance);
+        is_guarded.then(|| self.acceptance())
+    }
+
+    /// The value in full, where its rounded form would be judged otherwise.
+    pub(super) fn value_in_full(&self) -> Option<String> {
+        let figures = Figures::new(self.report, self.stated.measurand);
+        self.compared(|compared| compared.in_full(&figures.estimate()))
+    }
+
     /// What lies beyond the limits of rejection.
     fn rejected(&self) -> String {
         let Interval { lower, upper } = self.found.rejection;
@@ -182,7 +194,7 @@ impl Assessment<'_> {
         let figures = Figures::new(self.report, self.stated.measurand);
         let l = self.l;
         let comma = l.comma();
-        let in_full = self.compared(|compared| compared.in_full(&figures.estimate()));
+        let in_full = self.value_in_full();
         let in_full = in_full.map(|number| figures.of_value(&number));
         let mut parts = vec![with_unrounded(&figures.value(), in_full.as_deref(), l)];
         if let Some(expanded) = figures.expanded() {

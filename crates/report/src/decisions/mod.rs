@@ -13,6 +13,7 @@ use crate::language::Language;
 use gumption_format::document::Block;
 use gumption_gum::propagate::Verdict;
 
+pub(super) use compared::with_unrounded;
 use conformity::Assessment;
 use detection::Limits;
 
@@ -36,6 +37,10 @@ pub(super) struct Decided<'a> {
     pub name: &'a str,
     /// The tolerance.
     pub tolerance: String,
+    /// The measured values that the rule accepts, where they are others than those inside the tolerance.
+    pub accepted: Option<String>,
+    /// The value in full, where its rounded form would be judged otherwise.
+    pub in_full: Option<String>,
     /// The rule.
     pub rule: String,
     /// The verdict.
@@ -50,6 +55,8 @@ pub(super) fn decided<'a>(report: &'a Report<'a>, measurand: usize) -> Vec<Decid
     let decided = about.map(|subject| Decided {
         name: &subject.stated.name,
         tolerance: subject.tolerance(),
+        accepted: subject.guarded(),
+        in_full: subject.value_in_full(),
         rule: subject.rule(),
         verdict: subject.found.verdict,
         inside: subject.stated.tolerance.contains(subject.found.estimate),

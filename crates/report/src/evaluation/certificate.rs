@@ -118,6 +118,7 @@ impl<'a> Points<'a> {
             };
             table.columns.extend([
                 head(l.pick("tolerance", "容许区间"), ColumnKind::Words),
+                head(l.pick("accepted", "接受区间"), ColumnKind::Words),
                 head(l.pick("verdict", "结论"), ColumnKind::Words),
             ]);
         }
@@ -129,7 +130,7 @@ impl<'a> Points<'a> {
             let freedom = figures.freedom().filter(|freedom| freedom != "∞");
             let mut cells = vec![
                 point.report.label.unwrap_or_default().into(),
-                figures.estimate().into(),
+                point.estimate(l).into(),
                 cell(figures.expanded()),
                 cell(figures.k()),
                 cell(freedom.filter(|_| figures.k().is_some())),
@@ -143,6 +144,7 @@ impl<'a> Points<'a> {
             for decided in &point.decided {
                 let verdict = decided.verdict;
                 cells.push(decided.tolerance.clone().into());
+                cells.push(cell(decided.accepted.clone()));
                 cells.push(cell(
                     verdict.map(|v| decisions::verdict_word(l, v).to_string()),
                 ));
@@ -241,6 +243,12 @@ impl<'a> Points<'a> {
 }
 
 impl Point<'_> {
+    /// y as it is rounded, and in full where a decision needs that.
+    fn estimate(&self, l: Language) -> String {
+        let in_full = self.decided.iter().find_map(|one| one.in_full.as_deref());
+        decisions::with_unrounded(&self.figures.estimate(), in_full, l)
+    }
+
     fn probability(&self) -> Option<String> {
         match self.figures.reported.probability {
             StatedProbability::Of(p) => Some(probability(p)),

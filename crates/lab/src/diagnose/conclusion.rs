@@ -30,6 +30,8 @@ pub enum Conclusion<'d> {
         named: Vec<&'d Slot>,
         /// Names that are not certain.
         tentative: Vec<&'d Alternative>,
+        /// Where the rest sits.
+        places: Vec<&'d Alternative>,
     },
     /// No name is certain.
     Tentative {
@@ -163,7 +165,11 @@ impl Diagnosis {
         let tentative: Vec<&Alternative> = tentative.filter(|one| !is_told(one)).collect();
         let places = self.places();
         match (named.is_empty(), tentative.is_empty(), self.undecided()) {
-            (false, ..) => Conclusion::AndMore { named, tentative },
+            (false, ..) => Conclusion::AndMore {
+                named,
+                tentative,
+                places,
+            },
             (true, false, _) => Conclusion::Tentative {
                 names: tentative,
                 places,
@@ -201,7 +207,11 @@ impl Diagnosis {
     pub fn likeness(&self, slot: &Slot) -> Likeness {
         let of = |candidate: usize| {
             let cell = &self.cells[candidate];
-            (&cell.place, cell.effect.pattern.is_some())
+            evidence::Kin {
+                place: &cell.place,
+                describes: cell.effect.pattern.is_some(),
+                is_scatter: cell.is_scatter(),
+            }
         };
         match evidence::likeness(slot, &self.examination.slots, of) {
             Likeness::Form => self.likened.unwrap_or(Likeness::Form),

@@ -32,6 +32,10 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let told = |list: &[&Alternative]| joined(list.iter().map(|one| names.told(diagnosis, one)), l);
     let at =
         |places: &[&Alternative]| joined(places.iter().map(|one| names.plain(one.candidate)), l);
+    let behind = |places: &[&Alternative]| match at(places) {
+        none if none.is_empty() => none,
+        places => l.with_head("", &places),
+    };
     match diagnosis.conclusion() {
         Conclusion::Agreement if diagnosis.noise.is_estimated() && diagnosis.noise.wanders() => say!("Nothing in the catalogue is seen beside noise that wanders from row to row. No noise is claimed that it could be held against: something left out that changes with time would look the same.").in_language(l),
         Conclusion::Agreement if diagnosis.noise.is_estimated() => say!("Model and recording agree: nothing is left out that this recording can show. No noise is claimed that its scatter could be held against.").in_language(l),
@@ -48,7 +52,11 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
                 false => verdict,
             }
         }
-        Conclusion::AndMore { named, tentative } => and_more(&list(&named), &told(&tentative), l),
+        Conclusion::AndMore {
+            named,
+            tentative,
+            places,
+        } => and_more([&list(&named), &told(&tentative), &behind(&places)], l),
         Conclusion::Tentative { names, places } => {
             let names = told(&names);
             let besides = match at(&places) {
@@ -63,10 +71,7 @@ fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
             say!("Model and recording disagree, and it is not decided why: {places}, or {name} ({p} %).").in_language(l)
         }
         Conclusion::Unexplained { places } => {
-            let places = match at(&places) {
-                none if none.is_empty() => none,
-                places => l.with_head("", &places),
-            };
+            let places = behind(&places);
             say!("Model and recording disagree, and nothing in the catalogue explains it{places}.").in_language(l)
         }
     }
@@ -81,9 +86,9 @@ fn left_out(told: &str, open: &str, l: Language) -> String {
 }
 
 /// The verdict where something has no name.
-fn and_more(list: &str, tentative: &str, l: Language) -> String {
-    let sentence =
-        say!("The model leaves out: {list}. Something without a name remains.").in_language(l);
+fn and_more([list, tentative, places]: [&str; 3], l: Language) -> String {
+    let sentence = say!("The model leaves out: {list}. Something without a name remains{places}.")
+        .in_language(l);
     match tentative {
         "" => sentence,
         _ => say!("{sentence} Tentatively also: {tentative}.").in_language(l),

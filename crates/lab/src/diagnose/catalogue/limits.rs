@@ -1,6 +1,7 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::building::{HIGHER, added, form, on_node, on_output, plain, scoped_label};
@@ -261,8 +262,8 @@ fn transitions(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells.map(|cell| Cell { odds, ..cell }).collect()
 }
 
-/// Steps of what a column is in some sense, between values of which two at least lie on either side: all of them, or some evenly and
-/// the best of all. Where the residuals show several, also these together: an instrument with several ranges has a step at each of
+/// Steps of what a column is in some sense, between values of which two at least lie on either side: all of them, or some evenly, those
+/// in the widest gaps, since values that were measured lie about those that were set, and the best of all. Where the residuals show several, also these together: an instrument with several ranges has a step at each of
 /// their ends.
 fn steps(
     fitted: &FittedModel<'_>,
@@ -300,15 +301,22 @@ fn steps(
         )
     };
     let on = |upper: &usize| Term::new(node, step(*upper));
-    let stride = gaps.len().div_ceil(MOST).max(1);
-    // Each takes the time of a pass through all rows.
-    let closer = gaps.len().div_ceil(MOST_TRIED);
-    let tried = gaps.iter().step_by(closer.max(1)).map(on);
-    let best = (stride > 1).then(|| best(fitted, &mut { tried }));
-    let best = best.flatten().map(|at| at * closer);
-    let best = best.filter(|at| at % stride > 0);
-    let scanned = (0..gaps.len()).step_by(stride).chain(best);
-    let scanned: Vec<usize> = scanned.map(|at| gaps[at]).collect();
+    let scanned = match gaps.len() > MOST {
+        false => gaps,
+        true => {
+            // Each takes the time of a pass through all rows.
+            let closer = gaps.len().div_ceil(MOST_TRIED);
+            let tried = gaps.iter().step_by(closer).map(on);
+            let best = best(fitted, &mut { tried }).map(|at| gaps[at * closer]);
+            let evenly = gaps.iter().step_by(gaps.len().div_ceil(MOST / 2)).copied();
+            let width = |upper: &usize| between(*upper)[1] - between(*upper)[0];
+            let mut widest = gaps.clone();
+            widest.sort_by(|a, b| width(b).total_cmp(&width(a)));
+            widest.truncate(MOST / 2);
+            let all: BTreeSet<usize> = evenly.chain(widest).chain(best).collect();
+            all.into_iter().collect()
+        }
+    };
     let terms: Vec<Term> = scanned.iter().map(on).collect();
     let several = sets(fitted, &terms, scanned.clone())
         .into_iter()

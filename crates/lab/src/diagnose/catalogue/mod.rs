@@ -136,6 +136,12 @@ impl Cell {
         self.effect.id == other.effect.id && self.words == other.words
     }
 
+    /// Whether it makes all rows scatter, without a course.
+    pub fn is_scatter(&self) -> bool {
+        let mut spectra = self.variants.iter().map(|one| one.spectrum.as_ref());
+        spectra.any(|spectrum| spectrum.is_some_and(Vec::is_empty))
+    }
+
     /// An effect of the catalogue, without a size or a sentence of the user's own.
     fn new(id: EffectId, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
         Cell {

@@ -13,7 +13,7 @@ use super::departure;
 use super::null::{Recordings, Simulated};
 use super::pairs::Pairs;
 use super::question::Kind;
-use super::remainders::Remainders;
+use super::remainders::{Remainder, Remainders};
 use super::sequential::probability;
 use super::space::{Frame, Reach, Space};
 use crate::diagnose::parallel::side_by_side;
@@ -247,21 +247,33 @@ impl<'a> Panel<'a> {
         let components = self.beside.observed() / noise;
         let residual = self.beside.residual.with_noise(noise);
         let allowance = allowance / (noise * noise);
+        let each = self.beside.rests.iter().map(|rest| {
+            let own = self.beside.components(rest, &components);
+            let squares = own.iter().map(|c| c * c);
+            let evidence = rest.evidence(squares, &residual);
+            (rest, evidence)
+        });
+        let each: Vec<(&Remainder, f64)> = each.collect();
+        // A departure has a course: scatter may owe to it what one that resembles the set takes, and no more.
+        let used = each.iter().filter_map(|(rest, evidence)| {
+            let allowed = allowance * rest.resemblance?;
+            Some(evidence.min(allowed))
+        });
+        let used = used.fold(0.0, f64::max);
         [Reach::Few, Reach::Many].map(|reach| {
-            let rests = self.beside.rests.iter();
-            let rests = rests.filter(|rest| space.blocks[rest.block].reach == reach);
-            let each = rests.map(|rest| {
-                let own = self.beside.components(rest, &components);
-                let squares = own.iter().map(|c| c * c);
-                let evidence = rest.evidence(squares, &residual);
-                let statistic = evidence + space.blocks[rest.block].log_odds;
-                Strongest {
+            let own = each.iter().map(|(rest, evidence)| {
+                let block = &space.blocks[rest.block];
+                let statistic = evidence + block.log_odds;
+                let allowed = rest.resemblance.map_or(used, |share| allowance * share);
+                let strongest = Strongest {
                     block: rest.block,
                     statistic,
-                    allowed: statistic - allowance * rest.resemblance,
-                }
+                    allowed: statistic - allowed,
+                };
+                (block.reach, strongest)
             });
-            each.max_by(|a, b| a.allowed.total_cmp(&b.allowed))
+            let own = own.filter(|(of, _)| *of == reach).map(|(_, own)| own);
+            own.max_by(|a, b| a.allowed.total_cmp(&b.allowed))
         })
     }
 

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::findings::{Alternative, Examination, Slot, State, Variant, Verdict};
+use super::findings::{Alternative, Examination, Level, Slot, State, Variant, Verdict};
 use super::fit::{fitted, noise};
 use super::grades::{alike, graded};
 use super::null::Simulated;
-use super::question::{Chance, Question};
+use super::question::{Chance, Kind, Question};
 use super::refusal::Refusal;
 use super::search::{Search, needed, search};
 use super::slots::{Explanation, Found, LISTED, slots};
@@ -61,7 +61,7 @@ pub fn examine(
                     explanation.named = kept;
                     found = slots(&space, &search, &explanation, &again);
                 }
-                doubt(&space, &mut found);
+                doubt(&space, &mut found, nameless(question, &search.levels));
             }
         }
     }
@@ -144,7 +144,7 @@ impl Examination {
 
 /// Makes names tentative in an explanation that is not adequate: something that no candidate is may be any part of what they
 /// explain. The one that is more than all the rest together stands, if it says what is there and not only what it looks like.
-fn doubt(space: &Space, Found { named, slots }: &mut Found) {
+fn doubt(space: &Space, Found { named, slots }: &mut Found, left: Vec<Alternative>) {
     let (sigma, _) = noise(space, &space.frame_of(named));
     let excess = space.z.norm_squared() / (sigma * sigma) - space.dof as f64;
     let stands = |first: &Alternative| {
@@ -156,8 +156,18 @@ fn doubt(space: &Space, Found { named, slots }: &mut Found) {
         }
     }
     if slots.iter().all(Slot::is_explained) {
-        slots.push(unnamed(Vec::new()));
+        slots.push(unnamed(left));
     }
+}
+
+/// What stood out last, where it has no name.
+fn nameless(question: &Question, levels: &[Level]) -> Vec<Alternative> {
+    let alpha = question.settings.alpha;
+    let last = levels.iter().rfind(|level| level.p <= alpha);
+    let last = last.map(|level| &question.atoms[level.strongest]);
+    let last = last.filter(|atom| atom.shape.kind() == Kind::Generic);
+    let last = last.map(|atom| Alternative::bare(atom.candidate));
+    last.into_iter().collect()
 }
 
 /// A slot without names, where these have their place.
@@ -209,7 +219,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::super::fixture::{Asked, shape, white};
-    use super::super::grades::{Likeness, likeness};
+    use super::super::grades::{Kin, Likeness, likeness};
     use super::super::question::{Candidate, Place, Shape};
     use super::*;
 
@@ -257,7 +267,12 @@ mod tests {
         assert_eq!(found.slots.len(), 2);
         let places = ["temperature", "time"].map(|along| Place::new("offset", along));
         let first = |slots: &[Slot], place: &dyn Fn(usize) -> usize, describes: bool| {
-            likeness(&slots[0], slots, |one| (&places[place(one)], describes))
+            let kin = |one| Kin {
+                place: &places[place(one)],
+                describes,
+                is_scatter: false,
+            };
+            likeness(&slots[0], slots, kin)
         };
         let two = &found.slots;
         assert_eq!(first(two, &|candidate| candidate, false), Likeness::Form);

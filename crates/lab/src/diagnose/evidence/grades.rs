@@ -2,9 +2,9 @@
 
 use super::departure::LIKENESS;
 use super::detection;
-use super::findings::{Slot, State};
+use super::findings::{Alternative, Slot, State};
 use super::null::Simulated;
-use super::question::{Place, Question};
+use super::question::{Place, Question, Shape};
 use super::search::Search;
 use super::slots::{Explanation, Found, NAMELESS, slots};
 use super::space::{Frame, Space};
@@ -98,22 +98,31 @@ pub fn is_severe(lambda: f64) -> bool {
     lambda * LIKENESS >= SEEN
 }
 
-/// Why one of some slots says no more than what its effect acts like; `of` gives the place of a candidate, and whether it only
-/// says what the recording looks like.
-pub fn likeness<'p>(
-    slot: &Slot,
-    slots: &[Slot],
-    of: impl Fn(usize) -> (&'p Place, bool),
-) -> Likeness {
+/// What of a candidate decides whether another one may have a part of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Kin<'p> {
+    /// Where it acts.
+    pub place: &'p Place,
+    /// Whether it only says what the recording looks like.
+    pub describes: bool,
+    /// Whether it makes the rows scatter and has no course, so that it has a part of none.
+    pub is_scatter: bool,
+}
+
+/// Why one of some slots says no more than what its effect acts like; `of` tells candidates.
+pub fn likeness<'p>(slot: &Slot, slots: &[Slot], of: impl Fn(usize) -> Kin<'p>) -> Likeness {
+    let scatters = |one: &Alternative| of(one.candidate).is_scatter;
+    let only_scatters = |slot: &Slot| slot.generic.first().is_some_and(scatters);
+    let is_open = |slot: &Slot| !slot.is_explained() && !only_scatters(slot);
     let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
-    let describes = |slot: &Slot| of(slot).is_some_and(|(_, describes)| describes);
-    let alike = |other: &&Slot| {
-        (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
-    };
+    let describes = |slot: &Slot| of(slot).is_some_and(|kin| kin.describes);
+    let place = |slot: &Slot| of(slot).map(|kin| kin.place);
+    let alike =
+        |other: &&Slot| (describes(slot) && describes(other)) || place(other) == place(slot);
     let shared = || slots.iter().filter(alike).count() > 1;
     match slot.is_severe() {
         false => Likeness::Weak,
-        true if !slots.iter().all(Slot::is_explained) => Likeness::Open,
+        true if slots.iter().any(is_open) => Likeness::Open,
         true if shared() => Likeness::Piece,
         true => Likeness::Form,
     }
@@ -123,8 +132,14 @@ pub fn likeness<'p>(
 /// name, and where no other effect may have taken up the departure.
 pub(super) fn graded(question: &Question, slots: &mut [Slot]) {
     let of = |candidate: usize| {
-        let candidate = &question.candidates[candidate];
-        (&candidate.place, candidate.describes)
+        let own = &question.candidates[candidate];
+        let mut atoms = question.atoms.iter();
+        Kin {
+            place: &own.place,
+            describes: own.describes,
+            is_scatter: atoms
+                .any(|atom| atom.candidate == candidate && atom.shape == Shape::Scatter),
+        }
     };
     let severe: Vec<bool> = (slots.iter())
         .map(|slot| likeness(slot, slots, of) == Likeness::Form)

@@ -29,8 +29,8 @@ pub(super) struct Remainder {
     /// Index of the block in the space.
     pub(super) block: usize,
     pub(super) kind: Kind,
-    /// The share of it that lies along the set: 1 where it is, or holds, what the set is.
-    pub(super) resemblance: f64,
+    /// The share of it that lies along the set: 1 where it is, or holds, what the set is; nothing for scatter, which has no shape.
+    pub(super) resemblance: Option<f64>,
     form: Form,
     /// T.
     turn: DMatrix<f64>,
@@ -59,12 +59,7 @@ impl<'s> Remainders<'s> {
                 }
             };
             let is_scatter = matches!(form, Form::Scatter);
-            // Scatter has no shape that could be another one.
-            let resemblance = if is_scatter {
-                1.0
-            } else {
-                a.norm_squared().min(1.0)
-            };
+            let resemblance = (!is_scatter).then(|| a.norm_squared().min(1.0));
             (is_scatter || turn.nrows() > 0).then_some(Remainder {
                 block: index,
                 kind: block.kind(),

@@ -244,9 +244,26 @@ impl<'q> Space<'q> {
         frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum()
     }
 
-    /// λ of all that a set explains.
+    /// λ of all that a set explains and that has a form.
     pub(super) fn strength(&self, frame: &Frame) -> f64 {
-        frame.fit.sqrt() / self.sigma(frame)
+        let blocks = frame.blocks.iter().copied();
+        let exact: Vec<usize> = blocks.filter(|block| self.is_of_readings(*block)).collect();
+        let formless = match exact.as_slice() {
+            [] => 0.0,
+            exact => self.frame_of(exact).fit,
+        };
+        (frame.fit - formless).max(0.0).sqrt() / self.sigma(frame)
+    }
+
+    /// Whether a block says what happened to one reading, or to two that were exchanged: that has no form from which it could depart.
+    fn is_of_readings(&self, block: usize) -> bool {
+        match &self.question.atoms[self.blocks[block].atom].shape {
+            Shape::Columns(columns) => {
+                let touched = columns.row_iter().filter(|row| row.amax() > 0.0);
+                touched.take(3).count() <= 2
+            }
+            Shape::Smooth { .. } | Shape::Scatter => false,
+        }
     }
 
     /// Standard deviation of the noise in whitened units, where a set is all there is.

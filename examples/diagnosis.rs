@@ -61,6 +61,7 @@ const EARLIER: [&str; 30] = [
     "noise that outputs have in common taken for physics, squares of degrees refused for their size, plays that begin in the middle of their gap alone",
     "lags that follow straight lines between the rows, a delay counted in as many sizes as it has terms, what is known beforehand counted in full against the fit",
     "noise that differs by label taken before effects under labels, variants of one cause in every set that was extended",
+    "effects under labels not asked for beside noise that wanders, lists that do less well than what has no name, scatter and all beside a wrong reading excused by the form of an effect",
 ];
 
 struct Options {

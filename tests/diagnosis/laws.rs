@@ -128,6 +128,27 @@ fn two_changes_of_range_are_told_together() {
     assert_eq!(variant["label"], "R_ref above 192.6, 599.3", "{found}");
 }
 
+/// Set points that are recorded as they were measured: what differs is the scale above 10 µW, and one head.
+#[test]
+fn a_change_of_range_lies_between_set_points() {
+    let mut noise = Noise(519);
+    let mut rows = "P [µW],head,I [µA]\n".to_owned();
+    for row in 0..96 {
+        let set = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0][row % 8];
+        let power = set * (1.0 + 0.01 * noise.normal());
+        let range = if set > 15.0 { 0.003 * power } else { 0.0 };
+        let (head, shift) = [("h1", 0.0), ("h2", 0.06), ("h3", 0.0)][row / 32];
+        let current = 1.0 + 2.0 * power + range + shift + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{power:.4},{head},{current:.4}");
+    }
+    let case = "equations = \"I = dark + s*P\"\n[columns]\nP = \"stimulus\"\nI = \"output\"\nhead = \"instrument\"\n";
+    let found = diagnosed("measured", &rows, case);
+    let listed = named_apart(&found).concat();
+    for id in ["level-shift", "transition-scale"] {
+        assert!(listed.iter().any(|one| one == id), "{id}: {found}");
+    }
+}
+
 /// A potentiometer whose shaft is not in line with the scale: the angle is set, and called a stimulus.
 #[test]
 fn an_angle_that_is_set_has_harmonics() {

@@ -510,3 +510,37 @@ fn noise_may_grow_about_what_the_model_gives_at_rest() {
     };
     assert_eq!((91..97).filter(alarm).count(), 0);
 }
+
+/// A line whose zero follows the temperature, or not, with noise of 10 µV that is claimed to be 5.5 µV.
+fn short_of_noise(shift: f64) -> Value {
+    let mut noise = Noise(77);
+    let mut rows = "t [min],x [mm],T [°C],y [mV]\n".to_owned();
+    for row in 0..60 {
+        let (x, t) = (f64::from(row % 6), 5.0 * f64::from(row));
+        let warmth = 23.0 + 2.0 * libm::sin(t / 47.0) + 0.01 * noise.normal();
+        let y = 1.0 + 2.0 * x + shift * (warmth - 23.0) + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{t},{x},{warmth:.2},{y:.4}");
+    }
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\nt = \"time\"\n[noise]\nu = \"5.5 µV\"\n";
+    diagnosed_with(&format!("short-{shift}"), &rows, case)
+}
+
+/// Scatter has no course that could be a departure of an effect from its form, and it has a part of none.
+#[test]
+fn a_claim_that_is_too_small_is_told_beside_an_effect() {
+    let found = short_of_noise(0.02);
+    let statement = found["statement"].as_str().unwrap_or_default();
+    assert!(
+        statement.contains("scatter beyond the claimed noise"),
+        "{statement}"
+    );
+    assert_eq!(found["effects"][0]["state"], "identified", "{found}");
+    // Alone it is nothing that a model takes in.
+    let found = short_of_noise(0.0);
+    let statement = found["statement"].as_str().unwrap_or_default();
+    assert!(
+        statement.contains("scatter beyond the claimed noise"),
+        "{statement}"
+    );
+    assert!(found["after"].is_null(), "{found}");
+}

@@ -38,7 +38,7 @@ pub struct Trial {
 
 /// The seeds of the study begin here. A batch of seeds is used once: whoever changes the diagnosis after
 /// having looked at its results moves on to seeds that nobody has seen.
-pub const FIRST_SEED: u64 = 782_310_985;
+pub const FIRST_SEED: u64 = 671_590_228;
 
 /// How many cases the study has: enough for intervals that decide.
 pub const CASES: usize = 4000;

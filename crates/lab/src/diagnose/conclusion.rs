@@ -89,6 +89,8 @@ pub enum Standing {
 
 /// Less likely than this, what has no name is out of the question.
 const UNLIKELY: f64 = 0.05;
+/// A name of this probability is not much less likely than what has none.
+const LIKELY_NAME: f64 = 0.2;
 
 impl Slot {
     /// Whether no explanation of a list is far likelier than the others.
@@ -115,6 +117,12 @@ impl Slot {
     /// Whether it has names that hold.
     pub fn is_explained(&self) -> bool {
         self.state != State::Unexplained
+    }
+
+    /// Whether a name holds, or is at least not much less likely than what has none.
+    pub fn has_likely_name(&self) -> bool {
+        let mut first = self.named.iter().take(1);
+        self.is_explained() || first.any(|one| one.probability >= LIKELY_NAME)
     }
 
     /// Names worth telling: all that hold, and of those that do not the likely ones.
@@ -251,9 +259,8 @@ impl Diagnosis {
 
     /// The first name of the first slot, if it is not much less likely than what has no name.
     fn undecided(&self) -> Option<&Alternative> {
-        const LEAST: f64 = 0.2;
         let slot = self.examination.slots.first()?;
-        let first = slot.named.first().filter(|one| one.probability >= LEAST);
+        let first = (slot.named.first()).filter(|one| one.probability >= LIKELY_NAME);
         slot.generic.first()?;
         first.filter(|one| !self.describes(one))
     }

@@ -10,7 +10,7 @@ use super::catalogue::{Cell, Pattern};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
-use super::evidence::{self, Examination, Likeness, Located};
+use super::evidence::{self, Examination, Likeness, Located, Slot};
 use super::explanation::{self, Separating};
 use super::failure::Failure;
 use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
@@ -217,7 +217,9 @@ impl Adoption {
         };
         let worse =
             (adopted.as_ref()).is_some_and(|adopted| adopted.quality.predicts_worse(before));
-        let adopted = adopted.filter(|_| !worse);
+        // Of what has no name nothing is adopted.
+        let has_name = examination.slots.iter().any(Slot::has_likely_name);
+        let adopted = adopted.filter(|_| !worse && has_name);
         let held_out = held_out::held_out(known, candidates, examination, adopted.as_ref());
         let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, candidates));
         let against = held_out.as_ref().filter(|_| recurs);

@@ -176,7 +176,7 @@ impl Teller<'_> {
                 let p = chance(p);
                 say!("{name}: among the tentative names ({p} %).").in_language(l)
             }
-            Standing::Absorbed => say!("{name}: the parameters absorb it whatever its size; no recording of this design shows it.").in_language(l),
+            Standing::Absorbed => say!("{name}: the parameters absorb it, or leave less than a hundredth of it, which the curvature of a model may be; it is not considered.").in_language(l),
             Standing::Excluded => {
                 let why = both();
                 say!("{name}: excluded. {why}").in_language(l)

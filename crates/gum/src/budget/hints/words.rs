@@ -1,7 +1,7 @@
 //! Words that people try for keys.
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 184] = [
+pub const SYNONYMS: [(&str, &str); 186] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("semi_range", "half_width"),
@@ -118,6 +118,8 @@ pub const SYNONYMS: [(&str, &str); 184] = [
     ("测量", "measurand"),
     ("测量结果", "measurand"),
     ("输出量", "measurand"),
+    ("measurement", "measurand"),
+    ("measurements", "measurand"),
     ("output", "measurand"),
     ("outputs", "measurand"),
     ("result", "measurand"),

@@ -140,8 +140,8 @@ fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
     !recorded && fitted.is_timed() && steps < SLOW * squares
 }
 
-/// The square alone, unless the numbers vary so little that it is a line, and the square about their middle with a linear
-/// part; nothing where they are the same up to their sign.
+/// The square alone of what has a zero of its own, unless the numbers vary so little that it is a line, and the square about their
+/// middle with a linear part; nothing where they are the same up to their sign.
 fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
@@ -151,7 +151,7 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         return Vec::new();
     }
     let mut variants = Vec::new();
-    if correlation(&square, x).abs() <= 0.995 {
+    if !fitted.is_temperature(column) && correlation(&square, x).abs() <= 0.995 {
         variants.push(form("square alone", vec![fitted.own(column).square()]));
     }
     if levels_of(x).len() > FEW {

@@ -273,6 +273,8 @@ fn steps(
 ) -> Vec<Variation> {
     /// More are not scanned.
     const MOST: usize = 40;
+    /// Gaps of more than this part of the mean are some between set points: those of an even series are none.
+    const WIDE: f64 = 2.0;
     /// More are not tried, of which the best is scanned as well.
     const MOST_TRIED: usize = 1000;
     let values = map(&levels_of(x), size);
@@ -308,11 +310,13 @@ fn steps(
             let closer = gaps.len().div_ceil(MOST_TRIED);
             let tried = gaps.iter().step_by(closer).map(on);
             let best = best(fitted, &mut { tried }).map(|at| gaps[at * closer]);
-            let evenly = gaps.iter().step_by(gaps.len().div_ceil(MOST / 2)).copied();
+            let evenly = gaps.iter().step_by(gaps.len().div_ceil(MOST)).copied();
             let width = |upper: &usize| between(*upper)[1] - between(*upper)[0];
-            let mut widest = gaps.clone();
+            let mean = (most - least) / (levels.len() - 1) as f64;
+            let wide = gaps.iter().filter(|upper| width(upper) > WIDE * mean);
+            let mut widest: Vec<usize> = wide.copied().collect();
             widest.sort_by(|a, b| width(b).total_cmp(&width(a)));
-            widest.truncate(MOST / 2);
+            widest.truncate(MOST);
             let all: BTreeSet<usize> = evenly.chain(widest).chain(best).collect();
             all.into_iter().collect()
         }

@@ -195,7 +195,7 @@ fn of_the_calendar(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64
     cycles.filter(|own| !is_told(own)).collect()
 }
 
-/// The rows at each value, for each stimulus whose values come again and again.
+/// The rows at each value, for each stimulus or angle whose values come again and again, whether the model takes it in or not.
 fn rounds(fitted: &FittedModel<'_>) -> Vec<Vec<Vec<usize>>> {
     let of_column = |column: usize| {
         let x = fitted.design.reduced(fitted.numbers(column));
@@ -203,7 +203,11 @@ fn rounds(fitted: &FittedModel<'_>) -> Vec<Vec<Vec<usize>>> {
         let at = |value: &f64| (0..x.len()).filter(|row| x[*row] == *value).collect();
         (2 * values.len() <= x.len()).then(|| values.iter().map(at).collect())
     };
-    fitted.used(Role::Stimulus).filter_map(of_column).collect()
+    let columns = fitted.case().columns.iter().enumerate();
+    let go_round = columns.filter(|(_, column)| {
+        matches!(column.role, Role::Stimulus | Role::Angle) && column.numbers().is_some()
+    });
+    go_round.filter_map(|(index, _)| of_column(index)).collect()
 }
 
 /// Whether a wave over the time is a value of its own at each value of a stimulus, which goes round with it: but for less than

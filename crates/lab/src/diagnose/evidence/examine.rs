@@ -233,9 +233,14 @@ mod tests {
         course(|t| libm::sin(90.0 * t))
     }
 
-    /// A slope and a square in the catalogue; what hums has no name, and one competitor without a name that holds it.
+    /// One row that is far off.
+    fn wild() -> DVector<f64> {
+        DVector::from_fn(ROWS, |row, _| f64::from(u8::from(row == 17)))
+    }
+
+    /// A slope, a square and a wrong reading in the catalogue; what hums has no name, and one competitor without a name that holds it.
     fn examined(residuals: DVector<f64>, describes: bool) -> Examination {
-        let named = [course(|t| t), course(|t| (t - 0.5) * (t - 0.5))];
+        let named = [course(|t| t), course(|t| (t - 0.5) * (t - 0.5)), wild()];
         let fast = [80.0, 85.0, 90.0, 95.0].map(|f| course(|t| libm::sin(f * t)));
         let smooth = Shape::Smooth {
             features: DMatrix::from_columns(&fast),
@@ -258,6 +263,15 @@ mod tests {
         let found = examined(course(|t| t) * 30.0, false);
         assert_eq!(found.verdict, Verdict::Identified);
         assert_eq!(examined(hum() * 0.0, false).verdict, Verdict::None);
+    }
+
+    /// A reading has no form from which it could depart: λ = 900 beside one of 8.
+    #[test]
+    fn a_wrong_reading_excuses_nothing_beside_it() {
+        let found = examined(wild() * 900.0, false);
+        assert_eq!(found.verdict, Verdict::Identified);
+        let found = examined(wild() * 900.0 + hum() * 1.5, false);
+        assert_eq!(found.verdict, Verdict::Partly);
     }
 
     #[test]

@@ -30,7 +30,7 @@ use gumption::diagnose::{Pick, StandIn, diagnose, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
 
 /// What was otherwise in the diagnosis, or in what is counted, at each earlier table.
-const EARLIER: [&str; 30] = [
+const EARLIER: [&str; 31] = [
     "four rigs, the catalogue scored by slopes",
     "noise judged before the explanation",
     "departures of a form allowed to everything beside it",

@@ -382,6 +382,55 @@ fn other_units_are_converted_to_two_digits_of_uncertainty() {
     has("25.20", "\\degreecelsius", "0.12");
 }
 
+/// ISO/IEC 17025, 7.8.6: 0.30 + 0.10 is within ±0.40, and 0.102 that is printed as 0.10 is not.
+#[test]
+fn a_table_tells_what_a_guard_band_accepts() {
+    let folder = folder("accepted");
+    let file = folder.join("points.toml");
+    let budget = "[measurand.E]\nmodel = \"x\"\nunit = \"mV\"\n[input.x]\nunit = \"mV\"\nu = 0.052\n[conformity]\nmpe = \"0.4 mV\"\nrule = \"ILAC-G8\"\n[series]\ncolumns = [\"label\", \"x\"]\nrows = [[\"5 V\", 0.3], [\"6 V\", 0.29796]]\n";
+    std::fs::write(&file, budget).expect("a budget");
+    let said = run(&["eval", "--no-mc", "--profile", "CNAS"], &[&file]);
+    let table = said.split("Statement for the certificate").nth(1);
+    let table = table
+        .and_then(|rest| rest.split("Decision rule").next())
+        .unwrap_or_default();
+    assert!(table.contains("[-0.2981, 0.2981] mV"), "{table}");
+    assert!(table.contains("0.30 (unrounded 0.2980)"), "{table}");
+}
+
+/// k stands beside U where accreditation wants it, whatever a few readings make of clause 8 (ILAC-P14, 5.4; CNAS-CL01-G003).
+#[test]
+fn accreditation_has_a_coverage_factor() {
+    let folder = folder("factor");
+    let budget = "[measurand.m]\nmodel = \"I + d\"\nunit = \"g\"\n[input.I]\nunit = \"g\"\nreadings = [10.0012, 10.0015, 10.0011]\n[input.d]\nvalue = 0\nunit = \"g\"\ncertificate = { U = 0.0003, k = 2 }\n";
+    let file = folder.join("readings.toml");
+    std::fs::write(&file, budget).expect("a budget");
+    for profile in ["ILAC", "CNAS"] {
+        let said = run(&["eval", "--profile", profile], &[&file]);
+        // t at the 13 of the 13.1 degrees of freedom by Welch and Satterthwaite.
+        assert!(
+            said.contains("2.16") && said.contains("ν_eff = 13"),
+            "{said}"
+        );
+        assert!(said.contains("Reported is the GUM result"), "{said}");
+    }
+}
+
+/// EA-4/02, 6.3: 0.1448 is no 0.1.
+#[test]
+fn a_digit_that_lowers_the_uncertainty_is_told() {
+    let folder = folder("digit");
+    let of = |digits: u8, u: f64| {
+        let budget = format!(
+            "[conventions]\ndigits = {digits}\ncoverage_factor = 2\n[measurand.y]\nmodel = \"a\"\nunit = \"mm\"\n[input.a]\nvalue = 1.23\nunit = \"mm\"\nu = {u}\n"
+        );
+        let found = evaluated(&folder, &budget);
+        let findings = found["findings"].as_array().cloned().unwrap_or_default();
+        findings.iter().any(|one| one["kind"] == "rounded_down")
+    };
+    assert!(of(1, 0.0724) && !of(2, 0.0724) && !of(1, 0.0976));
+}
+
 /// What was used was no longer valid on the days that the certificate states, or the budget states another day.
 #[test]
 fn dates_that_do_not_fit_are_told() {

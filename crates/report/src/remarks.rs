@@ -75,6 +75,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::LargeUncertainty { .. } => "large_uncertainty",
         FindingKind::BelowReference { .. } => "below_reference",
         FindingKind::FallingCarrier { .. } => "falling_carrier",
+        FindingKind::RoundedDown => "rounded_down",
         FindingKind::ErrorMeant { .. } => "error_meant",
         FindingKind::IndicationMeant { .. } => "indication_meant",
         FindingKind::CoarseStep { .. } => "coarse_step",
@@ -207,6 +208,9 @@ fn said(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> Sa
         ),
         FindingKind::FallingCarrier { input } => say!(
             "{input} is stated as `gross` in [detection], and the result falls where it rises: it is the background, and the decision threshold is not that of the result. State the input that rises with what is measured."
+        ),
+        FindingKind::RoundedDown => say!(
+            "Rounding to one digit makes U smaller by more than 5 %, which EA-4/02, 6.3, does not let stand. State two digits (`digits = 2`), or carry up (`rounding = \"up\"`)."
         ),
         FindingKind::ErrorMeant { .. } | FindingKind::IndicationMeant { .. } => {
             meant::sentence(report, measurand, kind).into()

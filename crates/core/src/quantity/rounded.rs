@@ -40,6 +40,11 @@ impl RoundingRule {
         rounded
     }
 
+    /// Whether rounding lowers an uncertainty by more than 5 %, which EA-4/02, 6.3, does not let stand.
+    pub fn lowers(self, u: f64) -> bool {
+        lowered_by_5_percent(&Decimal::from_f64(u), &self.uncertainty(u))
+    }
+
     /// Rounds an uncertainty, and the estimate to the same last place.
     pub fn align(self, estimate: f64, uncertainty: f64) -> Rounded {
         let uncertainty = self.uncertainty(uncertainty);

@@ -98,6 +98,7 @@ impl Evidence<'_> {
             kinds.extend(self.of_monte_carlo(measurand));
             kinds.extend(self.of_tolerances(measurand));
             kinds.extend(self.of_detection(measurand));
+            kinds.extend(self.of_rounding(measurand));
             if kinds.iter().any(tells_few_degrees) {
                 kinds.retain(|kind| !matches!(kind, FindingKind::FewDegreesOfFreedom { .. }));
             }
@@ -256,6 +257,14 @@ impl Evidence<'_> {
             .filter(|(stated, _)| stated.measurand == measurand)
             .filter_map(|(stated, found)| meant::other_value(stated, found))
             .collect()
+    }
+
+    /// Whether U is printed smaller than it is: with one digit it may be by a third.
+    fn of_rounding(&self, measurand: usize) -> Option<FindingKind> {
+        let reported = self.results[measurand].reported(&self.budget.conventions);
+        let expanded = reported.expanded()?;
+        let is_lower = reported.rounding.lowers(expanded);
+        is_lower.then_some(FindingKind::RoundedDown)
     }
 
     /// Whether what is to be the gross reading of a decision threshold is that of the background.

@@ -215,7 +215,7 @@ impl Diagnosis {
     pub fn likeness(&self, slot: &Slot) -> Likeness {
         let of = |candidate: usize| {
             let cell = &self.cells[candidate];
-            evidence::Kin {
+            evidence::Nature {
                 place: &cell.place,
                 describes: cell.effect.pattern.is_some(),
                 is_scatter: cell.is_scatter(),

@@ -198,6 +198,8 @@ pub enum FindingKind {
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
+    /// Rounding makes U smaller by more than 5 %.
+    RoundedDown,
 }
 
 /// A component that rests on few readings.
@@ -220,7 +222,8 @@ impl FindingKind {
             | FindingKind::Undecided { .. }
             | FindingKind::ResidualsTooSmall { .. }
             | FindingKind::PhaseWraps { .. }
-            | FindingKind::Asymmetric => Severity::Note,
+            | FindingKind::Asymmetric
+            | FindingKind::RoundedDown => Severity::Note,
             FindingKind::PhaseUnknown { .. } => Severity::Failure,
             _ => Severity::Warning,
         }

@@ -273,7 +273,7 @@ fn steps(
 ) -> Vec<Variation> {
     /// More are not scanned.
     const MOST: usize = 40;
-    /// Gaps of more than this part of the mean are some between set points: those of an even series are none.
+    /// Gaps of more than this times the mean one are between set points; in an even series there are none.
     const WIDE: f64 = 2.0;
     /// More are not tried, of which the best is scanned as well.
     const MOST_TRIED: usize = 1000;

@@ -219,7 +219,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::super::fixture::{Asked, shape, white};
-    use super::super::grades::{Kin, Likeness, likeness};
+    use super::super::grades::{Likeness, Nature, likeness};
     use super::super::question::{Candidate, Place, Shape};
     use super::*;
 
@@ -281,12 +281,12 @@ mod tests {
         assert_eq!(found.slots.len(), 2);
         let places = ["temperature", "time"].map(|along| Place::new("offset", along));
         let first = |slots: &[Slot], place: &dyn Fn(usize) -> usize, describes: bool| {
-            let kin = |one| Kin {
+            let nature = |one| Nature {
                 place: &places[place(one)],
                 describes,
                 is_scatter: false,
             };
-            likeness(&slots[0], slots, kin)
+            likeness(&slots[0], slots, nature)
         };
         let two = &found.slots;
         assert_eq!(first(two, &|candidate| candidate, false), Likeness::Form);

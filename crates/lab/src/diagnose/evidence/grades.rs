@@ -100,7 +100,7 @@ pub fn is_severe(lambda: f64) -> bool {
 
 /// What of a candidate decides whether another one may have a part of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Kin<'p> {
+pub struct Nature<'p> {
     /// Where it acts.
     pub place: &'p Place,
     /// Whether it only says what the recording looks like.
@@ -110,13 +110,13 @@ pub struct Kin<'p> {
 }
 
 /// Why one of some slots says no more than what its effect acts like; `of` tells candidates.
-pub fn likeness<'p>(slot: &Slot, slots: &[Slot], of: impl Fn(usize) -> Kin<'p>) -> Likeness {
+pub fn likeness<'p>(slot: &Slot, slots: &[Slot], of: impl Fn(usize) -> Nature<'p>) -> Likeness {
     let scatters = |one: &Alternative| of(one.candidate).is_scatter;
     let only_scatters = |slot: &Slot| slot.generic.first().is_some_and(scatters);
     let is_open = |slot: &Slot| !slot.is_explained() && !only_scatters(slot);
     let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
-    let describes = |slot: &Slot| of(slot).is_some_and(|kin| kin.describes);
-    let place = |slot: &Slot| of(slot).map(|kin| kin.place);
+    let describes = |slot: &Slot| of(slot).is_some_and(|nature| nature.describes);
+    let place = |slot: &Slot| of(slot).map(|nature| nature.place);
     let alike =
         |other: &&Slot| (describes(slot) && describes(other)) || place(other) == place(slot);
     let shared = || slots.iter().filter(alike).count() > 1;
@@ -134,7 +134,7 @@ pub(super) fn graded(question: &Question, slots: &mut [Slot]) {
     let of = |candidate: usize| {
         let own = &question.candidates[candidate];
         let mut atoms = question.atoms.iter();
-        Kin {
+        Nature {
             place: &own.place,
             describes: own.describes,
             is_scatter: atoms

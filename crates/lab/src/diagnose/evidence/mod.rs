@@ -113,7 +113,7 @@ pub use findings::{
     Alternative, COVERAGE, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict,
 };
 pub use fit::singles;
-pub use grades::{Kin, Likeness, is_severe, likeness};
+pub use grades::{Likeness, Nature, is_severe, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::{narrowed, omitted};

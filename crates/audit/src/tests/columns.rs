@@ -582,3 +582,20 @@ fn a_title_may_name_the_glassware() {
     is_sound("sheet.csv", &sheet("Volumetric flask 100 mL"));
     assert!(first("sheet.csv", &sheet("Dispenser 100 mL")).starts_with("triangle@"));
 }
+
+/// The upper line of a head may end before the lower one: the last column is one of the table all the same.
+#[test]
+fn the_upper_line_of_a_head_may_be_shorter() {
+    let sheet = |part: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Two heads\nInput quantity,,,Uncertainty\nSymbol,Estimate,Unit,a or U,Distribution,u,c,u_i(L) / µm\n\
+             L_S,100.0002,mm,0.00012,\"normal, k=2\",0.00006,1,0.06\nΔt,0.0,K,0.5,rectangular,0.2887,1.15 µm/K,{part}\n\
+             d,0.3,µm,0.04,\"normal, s of mean, n = 10\",0.04,1,0.04\nu_c(L),,,,,,,{u_c}\nU (k=2),,,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.332", "0.34", "0.68"));
+    assert_eq!(
+        first("sheet.csv", &sheet("0.289", "0.30", "0.60")),
+        "c-one@Δt"
+    );
+}

@@ -2,6 +2,7 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | `amounts` | amounts that a text writes out |
 //! | `beside` | tables side by side |
 //! | `blanks` | tables whose columns stand one blank apart |
 //! | `blocks` | tables that are blocks of one budget |
@@ -35,6 +36,7 @@
 //! | `words` | words and figures in texts |
 //! | `wrapped` | sentences that go on in the next line |
 
+mod amounts;
 mod beside;
 mod blanks;
 mod blocks;
@@ -467,6 +469,9 @@ fn budget(
         table::interpret(&raw, full, &mut other);
         claimed = meant::better(claimed, other);
     }
+    let unread = claimed.rows.iter();
+    let unread = unread.filter_map(|row| row.unread_used.clone());
+    claimed.unplaced.extend(unread);
     claimed.rows.extend(missing);
     claimed
 }

@@ -599,3 +599,33 @@ fn the_upper_line_of_a_head_may_be_shorter() {
         "c-one@Δt"
     );
 }
+
+/// A mark between thousands is the one that a figure with decimals shows.
+#[test]
+fn thousands_may_have_a_mark() {
+    let sheet = |mark: &str, decimals: &str, expanded: &str| {
+        let figure = |text: &str| {
+            text.replace('.', "#")
+                .replace(',', mark)
+                .replace('#', decimals)
+        };
+        format!(
+            "Source;Half-width / Ω;Distribution;Divisor;u / Ω\nStandard (k=2);{};normal;2;{}\nDrift;{};rectangular;{};{}\n\
+             Repeatability of mean;{};normal;1;{}\nu_c;;;;{}\nU (k=2);;;;{}\n",
+            figure("1,200.0"),
+            figure("600.0"),
+            figure("2,500.0"),
+            figure("1.732"),
+            figure("1,443.4"),
+            figure("800.0"),
+            figure("800.0"),
+            figure("1,755.9"),
+            figure(expanded),
+        )
+    };
+    for (mark, decimals) in [(",", "."), (".", ","), ("'", "."), (" ", ".")] {
+        is_sound("sheet.csv", &sheet(mark, decimals, "3,500"));
+        let wrong = first("sheet.csv", &sheet(mark, decimals, "5,300"));
+        assert_eq!(wrong, "k-other", "{mark}");
+    }
+}

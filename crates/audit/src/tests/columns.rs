@@ -629,3 +629,21 @@ fn thousands_may_have_a_mark() {
         assert_eq!(wrong, "k-other", "{mark}");
     }
 }
+
+/// K in the column of units is the kelvin, and no coverage factor.
+#[test]
+fn the_kelvin_is_no_factor() {
+    for c in ["L·α", "c=2 mm/K", "≈2 mm/K"] {
+        let sheet = |u_c: &str, expanded: &str| {
+            format!(
+                "Source;u;Unit;c;u_i / mm\nTemperature;0.100;K;{c};0.200\nStandard;0.200;mm;1;0.200\n\
+                 Repeatability of mean;0.050;mm;1;0.050\nu_c;;;;{u_c}\nU (k=2);;;;{expanded}\n"
+            )
+        };
+        is_sound("sheet.csv", &sheet("0.287", "0.57"));
+        assert_eq!(
+            first("sheet.csv", &sheet("0.206", "0.41")),
+            "row-dropped@Temperature"
+        );
+    }
+}

@@ -647,3 +647,18 @@ fn the_kelvin_is_no_factor() {
         );
     }
 }
+
+/// A comma with a blank behind it is one of a sentence where the line has more fields than the others.
+#[test]
+fn commas_of_sentences_need_no_quotes() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Balance 6 kg\nSource,Value / g,Distribution,Divisor,u / g\nCalibration certificate U = 0.8 g k = 2,0.8,normal,2,{u}\n\
+             Repeatability, s of mean n = 10,0.21,normal,1,0.2100\nEccentricity ±0.5 g,0.5,rectangular,√3,0.2887\n\
+             Resolution 1 g,0.5,rectangular,√3,0.2887\nCombined standard uncertainty,,,,{u_c}\nExpanded uncertainty k = 2,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.4000", "0.6089", "1.2"));
+    let undivided = first("sheet.csv", &sheet("0.8000", "0.9224", "1.8"));
+    assert!(undivided.starts_with("cert-undivided@"), "{undivided}");
+}

@@ -235,11 +235,25 @@ impl Found {
         if self.located.is_evaluated() || !other.located.is_evaluated() {
             return false;
         }
-        let shared = other
+        let shared = other.raw.iter();
+        let shared = shared
+            .filter(|raw| self.about(raw, other).is_some())
+            .count();
+        // What evaluates may have its totals among its rows.
+        2 * shared > other.raw.len() || shared >= 2 && 2 * shared > self.raw.len()
+    }
+
+    /// The row of this table that is about the quantity of a row of another one: what is called the same, or else the only one that is
+    /// called alike, and like no other row.
+    fn about(&self, raw: &table::Raw, other: &Found) -> Option<&table::Raw> {
+        let is_free = |own: &&table::Raw| !other.raw.iter().any(|raw| own.is_of(raw));
+        let mut alike = self
             .raw
             .iter()
-            .filter(|raw| self.raw.iter().any(|own| own.is_of(raw)));
-        2 * shared.count() > other.raw.len()
+            .filter(is_free)
+            .filter(|own| own.is_like(raw));
+        let same = self.raw.iter().find(|own| own.is_of(raw));
+        same.or_else(|| alike.next().filter(|_| alike.next().is_none()))
     }
 
     /// Whether this is a list of figures with their u, such as the parameters of a fit, and no budget, since the file has
@@ -372,8 +386,7 @@ fn budget(
     claimed.unplaced.extend(unread_cells(&raw));
     let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
-        let of_row = stating.clone().flat_map(|input| &input.raw);
-        if let Some(input) = of_row.into_iter().find(|input| input.is_of(raw)) {
+        if let Some(input) = stating.clone().find_map(|input| input.about(raw, found)) {
             raw.absorb(input);
         }
     }

@@ -463,6 +463,10 @@ fn budget(
             claimed.unit = result_unit::unit_of_result(&claimed);
         }
     }
+    // Some have it in further columns beside the table.
+    if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
+        table::footers_beside(&located.beside(grid), sheet, &mut claimed);
+    }
     // And some on a sheet of its own.
     if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
         for (sheet, grid) in &beside.sheets {

@@ -300,3 +300,21 @@ fn a_correlation_in_words_is_asked_about() {
         assert!(!fired(line), "{line}");
     }
 }
+
+/// Shares that total 100 % may be those of the amounts, and not of their squares.
+#[test]
+fn shares_are_those_of_the_squares() {
+    let fired = |first: u8, last: u8| {
+        let text = format!(
+            "Source,± / N,Distribution,Divisor,u / N,Contribution (%)\nStandard (k=2),0.40,normal,2,0.200,{first}\n\
+             Drift,0.30,rectangular,1.732,0.173,37\nRepeatability of mean,0.10,normal,1,0.100,{last}\nu_c,,,,0.283,100\nU (k=2),,,,0.57,\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let numbers = findings(&audit(&claims[0]).found);
+        numbers.iter().any(|finding| finding.rule().number == 5)
+    };
+    assert!(!fired(50, 13));
+    // 0.200 of 0.473 is 42 %.
+    assert!(fired(42, 21));
+}

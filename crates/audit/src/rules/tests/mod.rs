@@ -318,3 +318,20 @@ fn shares_are_those_of_the_squares() {
     // 0.200 of 0.473 is 42 %.
     assert!(fired(42, 21));
 }
+
+/// A short Chinese name in front of a colon names its row: the resolution is in the list.
+#[test]
+fn a_resolution_in_a_list_is_no_missing_one() {
+    let asks = |row: &str| {
+        let text = format!(
+            "电子天平校准不确定度评定\n1. A类评定：重复测量6次，s = 0.32 mg，uA = s/√6 = 0.131 mg\n2. B类评定：\n 标准砝码：U = 0.3 mg，k = 2，uB1 = 0.15 mg\n\
+             \x20{row}：0.5 mg（半宽），均匀分布，uB2 = 0.5/√3 = 0.289 mg\n3. 合成标准不确定度：uc = 0.351 mg\n4. 扩展不确定度：U = k·uc = 0.70 mg，k = 2\n"
+        );
+        let grids = grid::grids("list.txt", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let findings = findings(&audit(&claims[0]).found);
+        findings.iter().any(|finding| finding.rule().number == 34)
+    };
+    assert!(!asks("天平分辨力"));
+    assert!(asks("空气浮力"));
+}

@@ -139,7 +139,7 @@ fn is_named_in_words(text: &str) -> bool {
 }
 
 fn is_symbol(head: &str) -> bool {
-    !head.contains(' ') && head.chars().count() <= 12
+    !head.contains([' ', ',']) && head.chars().count() <= 12
 }
 
 fn begins_with_symbol(text: &str) -> bool {

@@ -280,13 +280,21 @@ fn a_quotient_by_k_is_no_rule() {
 /// u_c, k and U in two further columns beside the table, each behind its label.
 #[test]
 fn totals_may_stand_beside_the_table() {
-    let sheet = |u_c: &str, expanded: &str| {
+    let sheet = |[combined, expanded]: [&str; 2], u_c: &str| {
         format!(
-            "Source,± / µV,Divisor,u / µV,,,\nStandard U (k=2),1.0,2,0.500,,u_c,{u_c}\nDrift,0.5,1.732,0.289,,k,2\n\
-             Repeatability of mean,0.2,1,0.200,,U,{expanded}\n"
+            "Source,± / µV,Divisor,u / µV,,,\nStandard U (k=2),1.0,2,0.500,,{combined},{u_c}\nDrift,0.5,1.732,0.289,,k,2\n\
+             Repeatability of mean,0.2,1,0.200,,{expanded},1.2\n"
         )
     };
-    is_sound("sheet.csv", &sheet("0.611", "1.2"));
-    let dropped = first("sheet.csv", &sheet("0.578", "1.2"));
-    assert_eq!(dropped, "row-dropped@Repeatability of mean");
+    for labels in [
+        ["u_c", "U"],
+        [
+            "Combined standard uncertainty / µV",
+            "Expanded uncertainty / µV",
+        ],
+    ] {
+        is_sound("sheet.csv", &sheet(labels, "0.611"));
+        let dropped = first("sheet.csv", &sheet(labels, "0.578"));
+        assert_eq!(dropped, "row-dropped@Repeatability of mean");
+    }
 }

@@ -76,7 +76,9 @@ impl Located {
 
     /// What stands in the rows of the table behind its last column.
     pub fn beside(&self, grid: &Grid) -> Grid {
-        let last = self.columns.iter().map(|column| column.index).max();
+        // Labels beside a table stand below no head.
+        let headed = self.columns.iter().filter(|c| !c.head.is_empty());
+        let last = headed.map(|column| column.index).max();
         let is_beside = |row: usize, column: usize| {
             let of_table = row == self.head || self.is_row(row);
             of_table && last.is_some_and(|last| column > last)

@@ -1,6 +1,6 @@
 //! Limits that a cell writes out, and those that are not understood.
 
-use super::{answer, first, is_sound, understood};
+use super::{answer, first, imported, is_sound, understood};
 use crate::Verdict;
 
 /// A drift of 0.1 V: u is 0.0577 V.
@@ -68,6 +68,9 @@ fn limits_that_are_not_understood_are_told() {
         answer("sheet.csv", &sheet("see cert", "n/a")).0,
         Verdict::NotRecomputed
     );
+    let told = "`see cert` stands in the place of its limits";
+    assert!(imported(&sheet("see cert", "n/a")).contains(told));
+    assert!(!imported(&sheet("0", "0")).contains("in the place of its limits"));
     is_sound("sheet.csv", &sheet("negligible", "-"));
     is_sound("sheet.csv", &sheet("0", "0"));
 }

@@ -3,7 +3,7 @@
 use crate::claim::{Figure, Row, Unplaced};
 use crate::printed::{self, Place, Printed};
 use crate::read::amounts;
-use crate::read::columns::{Role, names_factor};
+use crate::read::columns::{Role, is_unit, names_factor};
 use crate::read::footer;
 use crate::read::kind::{names_distribution, spelled};
 use crate::read::words::{alone, has};
@@ -118,7 +118,7 @@ impl<'a> Line<'a> {
 
     fn figure(self, role: Role) -> Option<Printed> {
         let mut figure = self.written(role)?;
-        if role != Role::C && !is_read(&figure.unit) {
+        if role != Role::C && !is_unit(&figure.unit) {
             figure.unit.clear();
         }
         Some(figure)
@@ -157,7 +157,7 @@ impl<'a> Line<'a> {
         // What is behind the first number of a product is no unit of it.
         let is_product = text.contains(['=', '×', '*', '·', '⋅']);
         let is_own =
-            |figure: &Printed| !is_product || figure.unit.is_empty() || is_read(&figure.unit);
+            |figure: &Printed| !is_product || figure.unit.is_empty() || is_unit(&figure.unit);
         let figure = self.figure(Role::C).filter(is_own);
         match (figure, made) {
             // The same, with the digits that it has.
@@ -201,7 +201,7 @@ impl<'a> Line<'a> {
         let roles = [Role::Value, Role::Used, Role::U, Role::Contribution];
         let mut figures = roles.into_iter().filter_map(|role| self.written(role));
         let unread =
-            |figure: &Printed| figure.unit.contains(char::is_alphabetic) && !is_read(&figure.unit);
+            |figure: &Printed| figure.unit.contains(char::is_alphabetic) && !is_unit(&figure.unit);
         figures.find(unread).map(|figure| Unplaced {
             at: figure.at,
             text: figure.unit,
@@ -311,7 +311,7 @@ impl<'a> Line<'a> {
             }
         }
         let at = self.place(column.index);
-        (is_read(&half.unit) || half.unit.is_empty()).then(|| (value.at(at), half.at(at)))
+        (is_unit(&half.unit) || half.unit.is_empty()).then(|| (value.at(at), half.at(at)))
     }
 
     /// The figure of a row whose remark is nothing else, where the row says by what it was divided, and no column is one of limits.
@@ -366,14 +366,9 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Whether a text is a unit, or the power of ten that stands for one.
-fn is_read(unit: &str) -> bool {
-    units::parse(unit).is_some() || units::power_of_ten(unit).is_some()
-}
-
 /// Whether nothing but a unit stands behind a figure.
 fn is_plain(unit: &str) -> bool {
-    unit.is_empty() || is_read(unit)
+    unit.is_empty() || is_unit(unit)
 }
 
 /// Whether a cell says more than that it has nothing to say.

@@ -89,6 +89,8 @@ pub struct Row {
     pub unread_unit: Option<Unplaced>,
     /// What its column of distributions says and is none that is known.
     pub unread_distribution: Option<Unplaced>,
+    /// What its column of limits says where neither a figure nor words of it were understood.
+    pub unread_used: Option<Unplaced>,
     /// What its column of coefficients says and is no number.
     pub unread_c: Option<Unplaced>,
     /// Everything that the sheet says of it in words: name, remarks, notes.

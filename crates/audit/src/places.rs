@@ -24,7 +24,11 @@ impl Claimed {
         let stale = self.stale.iter_mut().map(|one| &mut one.at);
         let understood = self.understood.iter_mut().map(|one| &mut one.at);
         let unread = self.rows.iter_mut().flat_map(|row| {
-            let unread = [&mut row.unread_unit, &mut row.unread_distribution];
+            let unread = [
+                &mut row.unread_unit,
+                &mut row.unread_distribution,
+                &mut row.unread_used,
+            ];
             unread.into_iter().flatten()
         });
         let unplaced = self.unplaced.iter_mut().chain(unread);

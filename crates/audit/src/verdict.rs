@@ -27,7 +27,8 @@ pub struct Audit<'a> {
     pub verdict: Verdict,
     /// What was found.
     pub found: Found<'a>,
-    /// Rows from which nothing leads to the result, where the claim cannot be recomputed for that.
+    /// Rows from which nothing leads to the result, or whose limits are not understood, where the claim cannot be recomputed
+    /// for that.
     pub missing: Vec<usize>,
 }
 
@@ -43,7 +44,11 @@ impl Audit<'_> {
 /// Audits a claim.
 pub fn audit(claimed: &Claimed) -> Audit<'_> {
     let mut found = search(claimed);
-    let missing = missing(&found);
+    let mut missing = missing(&found);
+    let best = found.explanations.first();
+    if missing.is_empty() && best.is_some_and(|best| best.acts.is_empty()) {
+        missing = unread(claimed);
+    }
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
     if !missing.is_empty() || nothing {
         // What sums of several quantities come to explains nothing, and departs from nothing.
@@ -94,6 +99,13 @@ fn missing(found: &Found<'_>) -> Vec<usize> {
         true => Vec::new(),
         false => rows,
     }
+}
+
+/// Rows whose limits are not understood: that u follows from them, nothing shows.
+fn unread(claimed: &Claimed) -> Vec<usize> {
+    let rows = claimed.rows.iter().enumerate();
+    let unread = rows.filter(|(_, row)| row.not_counted.is_none() && row.unread_used.is_some());
+    unread.map(|(i, _)| i).collect()
 }
 
 /// Whether rows that are not counted are sources that others share: by how much these are correlated, the sheet does not say.

@@ -154,6 +154,12 @@ impl<'a> Input<'a> {
                 "The sheet writes `{unread}` behind its figures, which is no unit that is known: the figures stand here without it."
             ));
         }
+        if let Some(unread) = &row.unread_used {
+            let unread = comment(&unread.text);
+            text += &self.remark(say!(
+                "`{unread}` stands in the place of its limits, and is not understood."
+            ));
+        }
         text
     }
 

@@ -2,6 +2,7 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | `amounts` | amounts that a text writes out |
 //! | `beside` | tables side by side |
 //! | `blanks` | tables whose columns stand one blank apart |
 //! | `blocks` | tables that are blocks of one budget |
@@ -35,6 +36,7 @@
 //! | `words` | words and figures in texts |
 //! | `wrapped` | sentences that go on in the next line |
 
+mod amounts;
 mod beside;
 mod blanks;
 mod blocks;
@@ -233,11 +235,25 @@ impl Found {
         if self.located.is_evaluated() || !other.located.is_evaluated() {
             return false;
         }
-        let shared = other
+        let shared = other.raw.iter();
+        let shared = shared
+            .filter(|raw| self.about(raw, other).is_some())
+            .count();
+        // What evaluates may have its totals among its rows.
+        2 * shared > other.raw.len() || shared >= 2 && 2 * shared > self.raw.len()
+    }
+
+    /// The row of this table that is about the quantity of a row of another one: what is called the same, or else the only one that is
+    /// called alike, and like no other row.
+    fn about(&self, raw: &table::Raw, other: &Found) -> Option<&table::Raw> {
+        let is_free = |own: &&table::Raw| !other.raw.iter().any(|raw| own.is_of(raw));
+        let mut alike = self
             .raw
             .iter()
-            .filter(|raw| self.raw.iter().any(|own| own.is_of(raw)));
-        2 * shared.count() > other.raw.len()
+            .filter(is_free)
+            .filter(|own| own.is_like(raw));
+        let same = self.raw.iter().find(|own| own.is_of(raw));
+        same.or_else(|| alike.next().filter(|_| alike.next().is_none()))
     }
 
     /// Whether this is a list of figures with their u, such as the parameters of a fit, and no budget, since the file has
@@ -370,8 +386,7 @@ fn budget(
     claimed.unplaced.extend(unread_cells(&raw));
     let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
-        let of_row = stating.clone().flat_map(|input| &input.raw);
-        if let Some(input) = of_row.into_iter().find(|input| input.is_of(raw)) {
+        if let Some(input) = stating.clone().find_map(|input| input.about(raw, found)) {
             raw.absorb(input);
         }
     }
@@ -448,6 +463,10 @@ fn budget(
             claimed.unit = result_unit::unit_of_result(&claimed);
         }
     }
+    // Some have it in further columns beside the table.
+    if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
+        table::footers_beside(&located.beside(grid), sheet, &mut claimed);
+    }
     // And some on a sheet of its own.
     if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
         for (sheet, grid) in &beside.sheets {
@@ -467,6 +486,9 @@ fn budget(
         table::interpret(&raw, full, &mut other);
         claimed = meant::better(claimed, other);
     }
+    let unread = claimed.rows.iter();
+    let unread = unread.filter_map(|row| row.unread_used.clone());
+    claimed.unplaced.extend(unread);
     claimed.rows.extend(missing);
     claimed
 }

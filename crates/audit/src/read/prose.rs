@@ -23,6 +23,9 @@ const OF_THE_WHOLE: [&str; 12] = [
     "注",
 ];
 
+/// Symbols of what is known of a quantity.
+const KNOWN: [&str; 8] = ["U", "u", "U95", "s", "s_p", "a", "d", "MPE"];
+
 /// The longest head of a line.
 const HEAD: usize = 48;
 
@@ -38,6 +41,9 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
             return of_conclusion(words, u.at(at), at).map(|row| with_product(row, calculation));
         }
         ((_, None), Some((words, u))) => (words, Some(u)),
+        ((words, Some(u)), _) if is_named_in_words(words) => {
+            return of_conclusion(words, u.at(at), at);
+        }
         (of_arrow, _) => of_arrow,
     };
     let u = u.map(|u| u.at(at));
@@ -116,8 +122,24 @@ fn end_of_head(text: &str) -> Option<usize> {
     ends.into_iter().flatten().min()
 }
 
+/// Whether a line names its quantity in words behind which stands what is known, and no estimate: `repeatability, s = 0.12 N of 5
+/// readings`, `resolution 0.2 N`.
+fn is_named_in_words(text: &str) -> bool {
+    let Some(end) = end_of_head(text) else {
+        return text.starts_with(char::is_alphabetic);
+    };
+    let of_estimate = || {
+        let mut words = text[..end]
+            .split([' ', ','])
+            .filter(|word| !word.is_empty());
+        let last = words.next_back();
+        words.next().is_none() || !last.is_some_and(|last| KNOWN.contains(&last))
+    };
+    text[end..].starts_with('=') && !of_estimate()
+}
+
 fn is_symbol(head: &str) -> bool {
-    !head.contains(' ') && head.chars().count() <= 12
+    !head.contains([' ', ',']) && head.chars().count() <= 12
 }
 
 fn begins_with_symbol(text: &str) -> bool {
@@ -143,6 +165,10 @@ fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
     let of_u = ["引入的标准不确定度", "的标准不确定度"];
     let end = of_u.iter().find_map(|words| name.find(words));
     let name = name[..end.unwrap_or(name.len())].trim();
+    // `standard U = 0.1 g` is about the standard.
+    let mut called = KNOWN.iter();
+    let called = called.find_map(|symbol| name.strip_suffix(symbol)?.strip_suffix(' '));
+    let name = called.unwrap_or(name);
     // `The comparator has an error limit of ±0.030 µm: u2 = …` is about the comparator.
     let name = match is_name(name) {
         true => name,

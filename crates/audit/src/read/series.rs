@@ -74,6 +74,10 @@ pub(crate) fn series<'t>(texts: impl Iterator<Item = &'t str>, lines: &str) -> V
     all
 }
 
+/// What has nothing to do with a figure is known to a factor of two, as far as the search looks for accidents: nearer ones are about the
+/// same.
+const LIKE: f64 = 2.0;
+
 /// What the lines of a sheet say of one series of readings.
 struct Series {
     /// Standard deviation of a single one.
@@ -82,6 +86,8 @@ struct Series {
     n: f64,
     /// Whether their mean is spoken of.
     has_mean: bool,
+    /// Whether no other readings are listed, nor others than those that are counted.
+    is_alone: bool,
 }
 
 impl Series {
@@ -93,15 +99,25 @@ impl Series {
         if stated.any(|other| Some(other.value) != first.as_ref().map(|s| s.value)) {
             return None;
         }
-        let all = series(lines.iter().map(String::as_str), words).into_iter();
-        let readings = all.max_by_key(Vec::len).filter(|all| all.len() >= 3);
+        let mut all = series(lines.iter().map(String::as_str), words);
+        all.retain(|readings| readings.len() >= 3);
+        all.dedup();
+        let readings = all.iter().max_by_key(|readings| readings.len());
         let counted = lines.iter().find_map(|line| count(line));
-        let n = counted.or_else(|| readings.as_ref().map(|all| all.len() as f64))?;
-        let s = first.or_else(|| computed(&readings?))?;
+        let n = counted.or_else(|| readings.map(|all| all.len() as f64))?;
+        let is_alone = all.len() <= 1 && readings.is_none_or(|all| all.len() as f64 == n);
+        let of_readings = readings.and_then(|readings| computed(readings));
+        // An s that its own readings do not give is none of them.
+        let follows = |s: &Printed| {
+            let own = of_readings.as_ref().filter(|_| is_alone);
+            own.is_none_or(|own| s.is_met_within(own.value, s.half_of_digits()))
+        };
+        let s = first.filter(follows).or_else(|| of_readings.clone())?;
         Some(Series {
             s,
             n,
             has_mean: has(&words.to_lowercase(), AVERAGE),
+            is_alone,
         })
     }
 
@@ -119,6 +135,31 @@ impl Series {
             s: self.s.clone(),
             n: Some(self.n),
             m: self.n,
+            pooled: None,
+        })
+    }
+
+    /// These readings, where the figure that a row has of its own is like s or s/√n, and follows from neither.
+    fn against(&self, row: &Row) -> Option<Stated> {
+        let own = row.stated.figure()?;
+        let to_own = units::factor(&self.s.unit, &own.unit).unwrap_or(1.0);
+        let of_mean = 1.0 / libm::sqrt(self.n);
+        let distance = |way: f64| libm::log(own.value / (self.s.value * to_own * way)).abs();
+        let is_met = |way: f64| {
+            let open = own.half_of_digits() + self.s.half * to_own * way;
+            own.is_met_within(self.s.value * to_own * way, open)
+        };
+        let is_like = distance(1.0).min(distance(of_mean)) <= libm::log(LIKE);
+        let departs = self.is_alone && is_like && !is_met(1.0) && !is_met(of_mean);
+        let m = match row.stated {
+            Stated::Deviation { m, .. } if distance(1.0) < distance(of_mean) => m,
+            _ if distance(1.0) < distance(of_mean) => 1.0,
+            _ => self.n,
+        };
+        departs.then(|| Stated::Deviation {
+            s: self.s.clone(),
+            n: Some(self.n),
+            m,
             pooled: None,
         })
     }
@@ -150,9 +191,12 @@ pub(super) fn settle<'r>(rows: impl Iterator<Item = (&'r str, &'r mut Row)>, wor
                 ..
             }
     );
+    let is_counted =
+        matches!(row.stated, Stated::Deviation { n: Some(n), pooled: None, .. } if n == series.n);
     let freedom = row.dof.as_ref().map_or(series.n - 1.0, |dof| dof.value);
-    if is_open && (freedom - (series.n - 1.0)).abs() <= 1.0 {
-        row.stated = series.stated(row).unwrap_or_else(|| row.stated.clone());
+    if (is_open || is_counted) && (freedom - (series.n - 1.0)).abs() <= 1.0 {
+        let stated = series.stated(row).filter(|_| is_open);
+        row.stated = (stated.or_else(|| series.against(row))).unwrap_or_else(|| row.stated.clone());
     }
 }
 

@@ -47,7 +47,7 @@ pub const RULES: &[Rule] = &[
     rule(2, Error, "product", t("U is not k times u_c", "U 不等于 k 乘 u_c", "JCGM 100, 6.2.1", "U was raised to the CMC, or rounded up", "U 已提高到 CMC 或只进不舍"), Look(whole::product)),
     rule(3, Error, "contribution", t("a contribution is not c times u", "分量不等于灵敏系数乘标准不确定度", "JCGM 100, 5.1.3", "a conversion of units is in it", "其中含单位换算"), Look(rows::contribution)),
     rule(4, Error, "quotient", t("u is not the value divided by the divisor", "标准不确定度不等于数值除以除数", "JCGM 100, 4.3", "the value stands in another unit, or is a percentage of the estimate", "数值所用单位不同，或为估计值的百分数"), Look(rows::quotient)),
-    rule(5, Error, "shares", t("the shares do not total 100 %", "贡献率之和不是 100 %", "JCGM 100, 5.1", "correlated inputs have shares of their products, too", "相关的输入量另有相关项的份额"), Look(whole::shares)),
+    rule(5, Error, "shares", t("the shares do not total 100 %, or are not those of the squares", "贡献率之和不是 100 %，或不是方差的贡献率", "JCGM 100, 5.1", "correlated inputs have shares of their products, too", "相关的输入量另有相关项的份额"), Look(whole::shares)),
     rule(6, Warning, "derivative", t("a sensitivity coefficient is not the derivative of the model at the estimates", "灵敏系数不是模型在估计值处的偏导数", "JCGM 100, 5.1.3", "it was measured by changing the quantity (5.1.4)", "由实验测得（5.1.4）"), Look(rows::derivative)),
     rule(7, Error, "result", t("y is not the value of the model at the estimates", "y 不等于模型在估计值处的值", "JCGM 100, 4.1.4", "a correction that is no row was applied", "另作了未列入表中的修正"), Look(whole::result)),
     rule(8, Error, "linear-sum", t("uncertainties or variances were added where squares belong", "直接相加了不确定度，而不是平方", "JCGM 100, 5.1.2; E.3.2", "all inputs are fully correlated with the same sign (5.2.2, note 1)", "所有输入量完全正相关（5.2.2 注 1）"), Slip),

@@ -79,11 +79,33 @@ pub(super) fn shares(seen: &Seen<'_>) -> Vec<Hit> {
     let total: f64 = shares.iter().map(|share| share.value).sum();
     let open: f64 = shares.iter().map(|share| share.half).sum();
     let whole = if total > 2.0 { 100.0 } else { 1.0 };
-    let all = shares.len() > 1 && shares.len() == counted;
-    let off = (total - whole).abs() > (open + 1e-9).max(0.01 * whole);
-    when(all && off && seen.claimed.correlations.is_empty(), || {
-        format!("Σ = {total:.4}")
-    })
+    if shares.len() < 2 || shares.len() != counted || !seen.claimed.correlations.is_empty() {
+        return Vec::new();
+    }
+    match (total - whole).abs() > (open + 1e-9).max(0.01 * whole) {
+        true => one(format!("Σ = {total:.4}")),
+        false => other_share(seen, whole).into_iter().collect(),
+    }
+}
+
+/// The share that departs most from that of the square of its contribution.
+fn other_share(seen: &Seen<'_>, whole: f64) -> Option<Hit> {
+    let lines = &seen.laboratory.lines;
+    let square = |i: usize| lines[i].contribution() * lines[i].contribution();
+    let counted = (0..lines.len()).filter(|i| lines[*i].counted);
+    let total: f64 = counted.clone().map(square).sum();
+    let departs = |i: usize| {
+        let row = &seen.claimed.rows[i];
+        let (share, right) = (row.share.as_ref()?, whole * square(i) / total);
+        // Shares may have been computed from parts as they are printed.
+        let part = row.contribution.as_ref().or(row.u.as_ref())?;
+        let open = share.half + 2.0 * part.relative_half() * right + 0.01 * whole;
+        let far = (share.value - right).abs();
+        let numbers = format!("{} ≠ {right:.3}", share.as_read());
+        (far > open).then_some((far, Hit::of(Some(i), numbers)))
+    };
+    let found = counted.filter_map(departs);
+    found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
 pub(super) fn result(seen: &Seen<'_>) -> Vec<Hit> {

@@ -22,7 +22,8 @@ fn speaks(seen: &Seen<'_>, keys: &[&str]) -> bool {
 fn rows_speak(seen: &Seen<'_>, keys: &[&str]) -> bool {
     let rows = &seen.claimed.rows;
     rows.iter().any(|row| {
-        let lower = format!("{} {}", row.words, row.name).to_lowercase();
+        // A short Chinese name may stand where symbols do.
+        let lower = format!("{} {} {}", row.words, row.name, row.symbol).to_lowercase();
         keys.iter().any(|key| lower.contains(key))
     })
 }

@@ -5,6 +5,7 @@
 //! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
 //! | `functions` | the functions of spreadsheets that budgets are computed with |
 //! | `latex` | formulas of Markdown as plain text |
+//! | `groups` | marks between thousands |
 //! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `ruled` | tables of a page whose head has a rule below it |
@@ -14,6 +15,7 @@
 //! | `text` | separated values, Markdown tables, plain text |
 
 mod functions;
+mod groups;
 mod hidden;
 mod latex;
 mod open_document;
@@ -216,11 +218,11 @@ pub fn grids(name: &str, bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         return workbook::grids(bytes);
     }
     let text = decoded(bytes)?;
-    Ok(vec![match ending.as_str() {
+    Ok(vec![groups::without_marks(match ending.as_str() {
         "md" | "markdown" => text::markdown(&text),
         "tsv" => text::separated(&text, '\t'),
         _ => text::guessed(&text),
-    }])
+    })])
 }
 
 #[cfg(test)]

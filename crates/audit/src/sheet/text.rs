@@ -158,7 +158,7 @@ fn is_markdown(line: &str) -> bool {
 
 /// Separated values; a quoted field may hold separators, doubled quotes and line breaks.
 pub(super) fn separated(text: &str, separator: char) -> Grid {
-    let mut rows = Vec::new();
+    let mut rows: Vec<Vec<String>> = Vec::new();
     let mut open = String::new();
     let mut quotes = 0;
     for line in text.lines() {
@@ -177,23 +177,59 @@ pub(super) fn separated(text: &str, separator: char) -> Grid {
             } else {
                 fields(&open, separator)
             };
-            let cells = parted
-                .iter()
-                .map(|field| Cell::new(&field.replace('\n', " ")));
-            rows.push(cells.collect());
+            rows.push(parted);
             open.clear();
         }
     }
     if !open.is_empty() {
         rows.extend(
             open.lines()
-                .map(|line| line.split(separator).map(Cell::new).collect()),
+                .map(|line| line.split(separator).map(str::to_string).collect()),
         );
     }
+    let width = usual_width(&rows);
+    let cells = rows.into_iter().map(|fields| {
+        let fields = with_sentences(fields, separator, width);
+        let cells = fields.iter();
+        cells
+            .map(|field| Cell::new(&field.replace('\n', " ")))
+            .collect()
+    });
     Grid {
-        rows,
+        rows: cells.collect(),
         ..Grid::default()
     }
+}
+
+/// How many fields most lines of a table have.
+fn usual_width(rows: &[Vec<String>]) -> usize {
+    let count = |width: usize| rows.iter().filter(|fields| fields.len() == width).count();
+    let widths = rows.iter().map(Vec::len).filter(|width| *width >= 3);
+    widths.max_by_key(|width| count(*width)).unwrap_or(0)
+}
+
+/// The fields of a line; of one that has more than the others, what begins with a blank goes on with the sentence in front of it, whose
+/// comma nobody put in quotes.
+fn with_sentences(fields: Vec<String>, separator: char, width: usize) -> Vec<String> {
+    let mut surplus = fields.len().saturating_sub(width);
+    let mut out: Vec<String> = Vec::new();
+    for field in fields {
+        match out.last_mut() {
+            Some(last)
+                if separator == ','
+                    && surplus > 0
+                    && width > 0
+                    && field.starts_with(' ')
+                    && !field.trim().is_empty() =>
+            {
+                last.push(separator);
+                last.push_str(&field);
+                surplus -= 1;
+            }
+            _ => out.push(field),
+        }
+    }
+    out
 }
 
 fn fields(line: &str, separator: char) -> Vec<String> {

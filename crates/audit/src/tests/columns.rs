@@ -582,3 +582,83 @@ fn a_title_may_name_the_glassware() {
     is_sound("sheet.csv", &sheet("Volumetric flask 100 mL"));
     assert!(first("sheet.csv", &sheet("Dispenser 100 mL")).starts_with("triangle@"));
 }
+
+/// The upper line of a head may end before the lower one: the last column is one of the table all the same.
+#[test]
+fn the_upper_line_of_a_head_may_be_shorter() {
+    let sheet = |part: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Two heads\nInput quantity,,,Uncertainty\nSymbol,Estimate,Unit,a or U,Distribution,u,c,u_i(L) / µm\n\
+             L_S,100.0002,mm,0.00012,\"normal, k=2\",0.00006,1,0.06\nΔt,0.0,K,0.5,rectangular,0.2887,1.15 µm/K,{part}\n\
+             d,0.3,µm,0.04,\"normal, s of mean, n = 10\",0.04,1,0.04\nu_c(L),,,,,,,{u_c}\nU (k=2),,,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.332", "0.34", "0.68"));
+    assert_eq!(
+        first("sheet.csv", &sheet("0.289", "0.30", "0.60")),
+        "c-one@Δt"
+    );
+}
+
+/// A mark between thousands is the one that a figure with decimals shows.
+#[test]
+fn thousands_may_have_a_mark() {
+    let sheet = |mark: &str, decimals: &str, expanded: &str| {
+        let figure = |text: &str| {
+            text.replace('.', "#")
+                .replace(',', mark)
+                .replace('#', decimals)
+        };
+        format!(
+            "Source;Half-width / Ω;Distribution;Divisor;u / Ω\nStandard (k=2);{};normal;2;{}\nDrift;{};rectangular;{};{}\n\
+             Repeatability of mean;{};normal;1;{}\nu_c;;;;{}\nU (k=2);;;;{}\n",
+            figure("1,200.0"),
+            figure("600.0"),
+            figure("2,500.0"),
+            figure("1.732"),
+            figure("1,443.4"),
+            figure("800.0"),
+            figure("800.0"),
+            figure("1,755.9"),
+            figure(expanded),
+        )
+    };
+    for (mark, decimals) in [(",", "."), (".", ","), ("'", "."), (" ", ".")] {
+        is_sound("sheet.csv", &sheet(mark, decimals, "3,500"));
+        let wrong = first("sheet.csv", &sheet(mark, decimals, "5,300"));
+        assert_eq!(wrong, "k-other", "{mark}");
+    }
+}
+
+/// K in the column of units is the kelvin, and no coverage factor.
+#[test]
+fn the_kelvin_is_no_factor() {
+    for c in ["L·α", "c=2 mm/K", "≈2 mm/K"] {
+        let sheet = |u_c: &str, expanded: &str| {
+            format!(
+                "Source;u;Unit;c;u_i / mm\nTemperature;0.100;K;{c};0.200\nStandard;0.200;mm;1;0.200\n\
+                 Repeatability of mean;0.050;mm;1;0.050\nu_c;;;;{u_c}\nU (k=2);;;;{expanded}\n"
+            )
+        };
+        is_sound("sheet.csv", &sheet("0.287", "0.57"));
+        assert_eq!(
+            first("sheet.csv", &sheet("0.206", "0.41")),
+            "row-dropped@Temperature"
+        );
+    }
+}
+
+/// A comma with a blank behind it is one of a sentence where the line has more fields than the others.
+#[test]
+fn commas_of_sentences_need_no_quotes() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Balance 6 kg\nSource,Value / g,Distribution,Divisor,u / g\nCalibration certificate U = 0.8 g k = 2,0.8,normal,2,{u}\n\
+             Repeatability, s of mean n = 10,0.21,normal,1,0.2100\nEccentricity ±0.5 g,0.5,rectangular,√3,0.2887\n\
+             Resolution 1 g,0.5,rectangular,√3,0.2887\nCombined standard uncertainty,,,,{u_c}\nExpanded uncertainty k = 2,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.4000", "0.6089", "1.2"));
+    let undivided = first("sheet.csv", &sheet("0.8000", "0.9224", "1.8"));
+    assert!(undivided.starts_with("cert-undivided@"), "{undivided}");
+}

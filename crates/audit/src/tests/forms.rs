@@ -335,3 +335,48 @@ fn percentages_are_of_the_range_or_of_the_reading() {
     let wrong = first("sheet.csv", &sheet("0.577", "0.745"));
     assert!(wrong.ends_with("@Meter accuracy"), "{wrong}");
 }
+
+/// A line may name its source in words, with what is known right behind them.
+#[test]
+fn lines_may_name_their_source_in_words() {
+    let list = |[first, second, third]: [&str; 3], u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Budget, torque wrench 50 N·m\n{first}: U = 0.10 N·m, k = 2 -> u = 0.05 N·m\n{second} 0.2 N·m step -> u = 0.0577 N·m\n\
+             {third} -> u = {u} N·m\nu_c = {u_c} N·m\nU = {expanded} N·m (k = 2)\n"
+        )
+    };
+    for lines in [
+        [
+            "reference certificate",
+            "resolution:",
+            "repeatability, s = 0.12 N·m of 5 readings, mean reported",
+        ],
+        [
+            "reference certificate",
+            "resolution",
+            "repeatability s = 0.12 N·m, n = 5, mean reported",
+        ],
+    ] {
+        is_sound("list.txt", &list(lines, "0.0537", "0.093", "0.19"));
+        let single = first("list.txt", &list(lines, "0.12", "0.142", "0.28"));
+        assert!(single.starts_with("s-not-mean@repeatability"), "{single}");
+        let claimed = &super::understood("list.txt", &list(lines, "0.0537", "0.093", "0.19"))[0];
+        assert!(claimed.model.is_none() && claimed.rows.len() == 3);
+    }
+}
+
+/// a is the half-width of an interval (JCGM 100, 4.3.7), and no step.
+#[test]
+fn a_resolution_may_be_stated_by_its_half_width() {
+    let list = |resolution: &str, u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "标准器证书，U = 0.10 N·m，k = 2，u1 = 0.05 N·m\n分辨力，{resolution} N·m，u2 = {u} N·m\n\
+             重复性，s = 0.12 N·m，n = 5，u3 = 0.0537 N·m\nuc = {u_c} N·m\nU = {expanded} N·m（k = 2）\n"
+        )
+    };
+    is_sound("list.txt", &list("a = 0.1", "0.0577", "0.093", "0.19"));
+    is_sound("list.txt", &list("d = 0.2", "0.0577", "0.093", "0.19"));
+    let undivided = list("a = 0.100", "0.100", "0.124", "0.25");
+    let slip = first("list.txt", &undivided);
+    assert!(slip.starts_with("root3-missing@"), "{slip}");
+}

@@ -276,3 +276,25 @@ fn a_quotient_by_k_is_no_rule() {
          V_s,1000.0,mV,1.20,normal,-1,-1.20\nE,0.4,mV,,,,1.30\n\nV_s,B,U/k = 2.4/2\nU = 2.6 mV (k = 2)\n",
     );
 }
+
+/// u_c, k and U in two further columns beside the table, each behind its label.
+#[test]
+fn totals_may_stand_beside_the_table() {
+    let sheet = |[combined, expanded]: [&str; 2], u_c: &str| {
+        format!(
+            "Source,± / µV,Divisor,u / µV,,,\nStandard U (k=2),1.0,2,0.500,,{combined},{u_c}\nDrift,0.5,1.732,0.289,,k,2\n\
+             Repeatability of mean,0.2,1,0.200,,{expanded},1.2\n"
+        )
+    };
+    for labels in [
+        ["u_c", "U"],
+        [
+            "Combined standard uncertainty / µV",
+            "Expanded uncertainty / µV",
+        ],
+    ] {
+        is_sound("sheet.csv", &sheet(labels, "0.611"));
+        let dropped = first("sheet.csv", &sheet(labels, "0.578"));
+        assert_eq!(dropped, "row-dropped@Repeatability of mean");
+    }
+}

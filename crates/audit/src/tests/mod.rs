@@ -11,6 +11,7 @@ mod hands;
 mod labels;
 mod laboratories;
 mod layouts;
+mod limits;
 mod named_figures;
 mod others;
 mod points;

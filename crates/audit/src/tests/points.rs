@@ -179,10 +179,15 @@ fn heads_of_points_are_those_of_the_file() {
     );
 }
 
-/// Where the sums do not show what the columns are, the form is told.
+/// Where neither the heads nor the sums show what the columns are, the form is told; where the heads do, wrong sums are found.
 #[test]
 fn a_row_for_each_point_without_sums_is_told() {
     let text = "Nominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0204,2,0.041\n50,0.015,0.003,0.0353,2,0.071\n";
+    let found = verdicts(text).into_iter().map(|(_, verdict)| verdict);
+    assert_eq!(found.collect::<Vec<_>>(), [Verdict::Unexplained; 2]);
+    let text = &text
+        .replace("u_ref", "Reference")
+        .replace("u_res", "Display");
     assert_eq!(verdicts(text), []);
     let grids = sheet::grids("a.csv", text.as_bytes()).expect("a sheet");
     assert!(grids.iter().any(are_several));
@@ -274,5 +279,34 @@ fn titles_of_points_may_have_words() {
             let found: Vec<Verdict> = found.into_iter().map(|(_, verdict)| verdict).collect();
             assert_eq!(found, [Verdict::Sound, verdict], "{titles:?}");
         }
+    }
+}
+
+/// Heads that say what the figures are need no sums: of wrong ones the slips are found.
+#[test]
+fn points_with_wrong_sums_are_read() {
+    let beside = |[first, second]: [&str; 2]| {
+        format!(
+            "Source,u at 10 N (mN),u at 100 N (mN)\nReference,0.50,1.20\nRepeatability of mean,0.20,0.40\nResolution,0.29,0.29\n\
+             u_c,{first}\nU (k=2),{second}\n"
+        )
+    };
+    let below = |[first, second, third]: [&str; 3]| {
+        format!(
+            "Point / kPa,u_ref / kPa,u_res / kPa,u_rep / kPa,u_c / kPa,U (k=2) / kPa\n10,0.050,0.030,0.020,{first}\n\
+             50,0.080,0.030,0.040,{second}\n100,0.120,0.030,0.060,{third}\n"
+        )
+    };
+    all_sound(&beside(["0.61,1.30", "1.2,2.6"]), &["10 N", "100 N"]);
+    let sums = ["0.0616,0.12", "0.0943,0.19", "0.137,0.27"];
+    all_sound(&below(sums), &["10 kPa", "50 kPa", "100 kPa"]);
+    // The resolution is left out; the amounts are added.
+    for text in [
+        beside(["0.54,1.26", "1.1,2.5"]),
+        below(["0.100,0.20", "0.150,0.30", "0.210,0.42"]),
+    ] {
+        let found = verdicts(&text);
+        let is_wrong = |(_, verdict): &(String, Verdict)| *verdict == Verdict::WithEffect;
+        assert!(found.len() >= 2 && found.iter().all(is_wrong), "{found:?}");
     }
 }

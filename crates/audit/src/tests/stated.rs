@@ -1,6 +1,6 @@
 //! What cells and columns state: estimates that rows share, degrees of freedom, types, units.
 
-use super::{first, is_sound};
+use super::{answer, first, is_sound};
 use crate::claim::Stated;
 use crate::read::Mapping;
 use crate::{Verdict, claims};
@@ -131,4 +131,39 @@ fn many_rows_are_searched_soon() {
     let sheet =
         format!("Quantity,Estimate,u,c,Contribution\n{rows}u_c,,,,2.236\nk,2,,,\nU,,,,6.7\n");
     assert_eq!(first("sheet.csv", &sheet), "k-other");
+}
+
+/// Readings above the table, of which s is 0.001871 mm, and 0.000764 mm that of their mean: a row of as many has s and u of them.
+#[test]
+fn readings_are_held_against_their_row() {
+    let sheet = |row: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Calibration of a micrometer\nReadings / mm: 10.012 10.015 10.011 10.014 10.013 10.016\n\n\
+             Source,Value / mm,Distribution,Divisor,u / mm\n{row}\nGauge block U (k=2),0.002,normal,2,0.00100\n\
+             Resolution,0.0005,rectangular,1.732,0.000289\nu_c,,,,{u_c}\nU (k=2),,,,{expanded}\n"
+        )
+    };
+    let words = "\"Repeatability, 6 readings, mean reported\"";
+    for row in [
+        &format!("{words},0.001871,normal (A),√6,0.000764"),
+        "Repeatability,0.000764,normal (A),1,0.000764",
+    ] {
+        is_sound("sheet.csv", &sheet(row, "0.001291", "0.0026"));
+    }
+    let population = sheet(
+        &format!("{words},0.001708,normal (A),√6,0.000697"),
+        "0.001253",
+        "0.0025",
+    );
+    assert!(first("sheet.csv", &population).starts_with("population-sd@"));
+    for row in [
+        &format!("{words},0.0025,normal (A),√6,0.00102"),
+        "Repeatability,0.00102,normal (A),1,0.00102",
+    ] {
+        let (verdict, _) = answer("sheet.csv", &sheet(row, "0.001457", "0.0029"));
+        assert_ne!(verdict, Verdict::Sound, "{row}");
+    }
+    // Readings of something else have nothing to do with the row.
+    let other = "\"Repeatability, s of 6 readings, mean reported\",0.0100,normal (A),√6,0.00408";
+    is_sound("sheet.csv", &sheet(other, "0.004213", "0.0084"));
 }

@@ -79,3 +79,40 @@ fn unknown_formulas_are_listed() {
     let mut lines = claimed.unplaced.iter();
     assert!(lines.any(|line| line.text == "=AGGREGATE(9,6,D2:D4)"));
 }
+
+/// One sheet says what is known, another evaluates it; one source of three is called by more words there.
+#[test]
+fn sheets_of_inputs_may_call_a_source_by_more_words() {
+    let of = |name: &str, u: &str, u_c: &str, expanded: &str| {
+        let inputs = format!(
+            "Quantity,U or half-width (mg),k / divisor,Basis\nReference weight certificate W-7,0.3,2,\"certificate, U, k=2\"\n\
+             Drift,0.1,1.7321,rectangular\n{name},0.08,1,\"type A, n=10, ν=9\"\n"
+        );
+        let budget = format!(
+            "Source,Standard uncertainty u (mg),c,c·u (mg)\nReference weight certificate W-7,{u},1,{u}\nDrift,0.0577,1,0.0577\n\
+             Repeatability,0.08,1,0.08\nCombined standard uncertainty u_c,,,{u_c}\nExpanded uncertainty U (k=2),,,{expanded}\n"
+        );
+        let grids = [inputs, budget].map(|text| sheet::grids("sheet.csv", text.as_bytes()));
+        let budgets = read::budgets(
+            &grids.map(|grids| grids.unwrap().remove(0)),
+            &Mapping::default(),
+        );
+        let [one] = budgets.as_slice() else {
+            panic!("{} budgets", budgets.len());
+        };
+        (audit(one).verdict, ids(one))
+    };
+    for name in ["Repeatability", "Repeatability s of mean", "Scatter"] {
+        assert_eq!(
+            of(name, "0.15", "0.1795", "0.36").0,
+            Verdict::Sound,
+            "{name}"
+        );
+        let (_, slips) = of(name, "0.3", "0.3158", "0.63");
+        assert_eq!(
+            slips,
+            ["cert-undivided@Reference weight certificate W-7"],
+            "{name}"
+        );
+    }
+}

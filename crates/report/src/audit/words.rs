@@ -155,16 +155,23 @@ fn unchanged(audit: &Audit<'_>, right_u: &str) -> Said {
     say!("The result as printed does not change: U = {right_u}.")
 }
 
-/// What a claim lacks that cannot be recomputed: what leads from some rows to the result.
+/// What a claim lacks that cannot be recomputed: what leads from some rows to the result, or what their u were made from.
 fn missing(audit: &Audit<'_>, language: Language) -> String {
     let claimed = audit.found.case.claimed;
     let row = |i: &usize| {
         let row = &claimed.rows[*i];
-        format!("{} [{}]", place(row, *i, language), row.unit)
+        let unread = row.unread_used.as_ref();
+        let of_row = unread.map_or(&row.unit, |cell| &cell.text);
+        format!("{} [{of_row}]", place(row, *i, language))
     };
     let rows: Vec<String> = audit.missing.iter().map(row).collect();
     let rows = rows.join(language.semicolon());
+    let is_unread = audit
+        .missing
+        .iter()
+        .all(|row| claimed.rows[*row].unread_used.is_some());
     match claimed.unit.as_str() {
+        _ if is_unread => say!("Not recomputed: what is claimed follows with the standard uncertainties as they stand, and of these rows it is not understood what they were made from: {rows}."),
         "" => say!("Not recomputed: the rows are in units of several quantities, and neither sensitivity coefficients c_i, contributions u_i(y) nor a model with the estimates lead to the result. They are missing for: {rows}."),
         unit => say!("Not recomputed: nothing leads to the result in {unit} from these rows, for which a sensitivity coefficient c_i, a contribution u_i(y) or a model with the estimates is missing: {rows}."),
     }

@@ -96,8 +96,9 @@ fn normal_factor(e: &Evidence<'_>, text: &str) -> f64 {
 pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     const HALF: &[&str] = &["±", "+/-", "half", "半宽"];
     if let Some(step) = e.figure(STEP) {
-        // `resolution ± 0.005` is half of it, and so is `estimated to a fifth of a division (half-width 0.005)`.
-        let named = figure_after(text, &["half-width", "half width", "半宽"]);
+        // `resolution ± 0.005` is half of it, and so are `estimated to a fifth of a division (half-width 0.005)` and `a = 0.005` (JCGM 100,
+        // 4.3.7).
+        let named = figure_after(text, &["half-width", "half width", "半宽", "a =", "a="]);
         let half = named.is_some_and(|half| half.value == step.value)
             || step.text.trim_start().starts_with('±')
             || text.contains(&format!("± {}", step.text))

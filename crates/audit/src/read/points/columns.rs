@@ -141,7 +141,9 @@ fn points(
 
 /// Whether heads have nothing but the point, or a unit behind it.
 fn is_bare(columns: &[(usize, String)]) -> bool {
-    let is_nothing = |rest: &str| rest.is_empty() || is_unit(unmarked(rest));
+    // `u (mN)` is no product of units.
+    let says_figure = |rest: &str| role(&apart(rest).0).is_some_and(|(role, _)| role.is_figure());
+    let is_nothing = |rest: &str| rest.is_empty() || is_unit(unmarked(rest)) && !says_figure(rest);
     columns.len() == 1 && columns.iter().all(|(_, rest)| is_nothing(rest))
 }
 

@@ -34,13 +34,15 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
         return None;
     }
     let rows = rows_below(grid, head);
-    let fits = |row: &&usize| is_sum(grid, **row, &sources, &whole);
-    // That one row alone is a sum may be chance where its heads do not say what it is of.
+    // Where the heads do not say what the figures are, sums do, of which one alone may be chance.
     let are_said = names_points(&cell.text) && sources.iter().all(|source| source.is_said);
+    let fits = |row: &&usize| match are_said {
+        true => is_complete(grid, **row, &sources),
+        false => is_sum(grid, **row, &sources, &whole),
+    };
     let fewest = if are_said { 1 } else { 2 };
-    let sums = rows.iter().filter(fits).count();
-    let are_sums = sums >= fewest && 2 * sums > rows.len();
-    if !are_sums {
+    let met = rows.iter().filter(fits).count();
+    if met < fewest || 2 * met <= rows.len() {
         return None;
     }
     let part = |row: &usize| {
@@ -97,6 +99,12 @@ fn column(index: usize, head: &str) -> Option<Column> {
         whole,
         is_said,
     })
+}
+
+/// Whether a row has a figure of each source.
+fn is_complete(grid: &Grid, row: usize, sources: &[&Column]) -> bool {
+    let mut cells = sources.iter().map(|source| grid.cell(row, source.index));
+    cells.all(|cell| cell.figure().is_some())
 }
 
 /// Whether u_c, or U over its k, is the root of the sum of squares of the sources.

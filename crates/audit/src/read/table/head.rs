@@ -353,8 +353,11 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
     if figures > 0 {
         return;
     }
+    // The upper of both may have fewer cells.
+    let all = 0..grid.rows[located.head].len().max(grid.rows[row].len());
     // `Standard` above `uncertainty`: each column has its words one below the other.
-    let joined: Vec<(usize, String)> = (0..grid.rows[located.head].len())
+    let joined: Vec<(usize, String)> = all
+        .clone()
         .map(|column| {
             let both = [located.head, row].map(|row| grid.cell(row, column).text.as_str());
             (column, both.join(" ").trim().to_string())
@@ -394,7 +397,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             }
         }
     } else if let Some(below) = below_merged {
-        let words = (0..grid.rows[located.head].len()).map(|index| {
+        let words = all.map(|index| {
             let own = below.iter().find(|(column, _)| *column == index);
             let above = || grid.cell(located.head, index).text.as_str();
             (index, own.map_or_else(above, |(_, text)| *text))

@@ -1,7 +1,8 @@
 //! Words and columns of rows turned into what is known, and their figures into one unit.
 
-use crate::claim::{Claimed, Relative, Row, Stated};
+use crate::claim::{Claimed, Relative, Row, Stated, Unplaced};
 use crate::printed::Printed;
+use crate::read::amounts::with_shares_made;
 use crate::read::family::FULL_SCALE;
 use crate::read::kind::{self, Evidence};
 use crate::read::quotients::quotients;
@@ -22,7 +23,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         let figures = [&row.used, &row.u, &row.value];
         let units = figures.into_iter().flatten().map(|figure| &figure.unit);
         let own = units.chain([&row.unit]).find(|unit| !unit.is_empty());
-        let words = remarks::stating(&row.words);
+        let words = with_shares_made(&remarks::stating(&row.words));
         let words = own.map_or(words.clone(), |unit| words::of_unit(&words, unit));
         let evidence = Evidence {
             words: &words,
@@ -42,6 +43,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         if let Some(u) = row.u.clone().filter(is_made) {
             (row.stated, row.relative) = (Stated::Standard { u, dof: None }, Relative::No);
         }
+        row.unread_used = row.unread_used.take().filter(|cell| row.is_unread(cell));
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }
     smaller_are_not_counted(&mut claimed.rows);
@@ -89,9 +91,11 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     }
 }
 
-/// The amount of which a row says that its percentage is a part: `20 ppm of 10 V`, `10 V 的 20 ppm`.
+/// The amount of which a row says that its percentage is a part: `20 ppm of 10 V`, `0.05 %×2.5 MPa`, `10 V 的 20 ppm`.
 fn named_whole(words: &str) -> Option<Printed> {
-    const OF: &[&str] = &["% of", "%of", "‰ of", "ppm of", "ppb of"];
+    const OF: &[&str] = &[
+        "% of", "%of", "‰ of", "ppm of", "ppb of", "% von", "%×", "% ×", "‰×", "ppm×", "ppm ×",
+    ];
     let behind = words::figure_after(words, OF);
     let amount = behind.or_else(|| {
         let (front, share) = words.split_once('的')?;
@@ -177,6 +181,11 @@ fn add_absent(claimed: &mut Claimed) {
     }
 }
 
+/// Whether a text has a figure in it.
+fn states(text: &str, figure: &Printed) -> bool {
+    words::figures_with_units(text).any(|own| own.value == figure.value)
+}
+
 impl Row {
     /// The standard uncertainty that the laboratory has, or the contribution where it is the same figure.
     fn made(&self) -> Option<Printed> {
@@ -188,6 +197,18 @@ impl Row {
         let figure = self.u.clone().or_else(contribution)?;
         let value = figure.value.abs();
         Some(Printed { value, ..figure })
+    }
+
+    /// Whether what its column of limits says gave nothing: u is what the laboratory has for it, or there is none.
+    fn is_unread(&self, cell: &Unplaced) -> bool {
+        let has_figure = cell.text.contains(|c: char| c.is_ascii_digit());
+        match (&self.stated, &self.u) {
+            (Stated::Nothing, _) => has_figure || self.contribution.is_none(),
+            (Stated::Standard { u, .. }, Some(own)) => {
+                has_figure && u == own && !states(&cell.text, u)
+            }
+            _ => false,
+        }
     }
 
     /// Whether its words divide a figure until u comes out: `0.2 % / 2.8 / √2`.

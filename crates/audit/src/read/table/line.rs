@@ -2,7 +2,8 @@
 
 use crate::claim::{Figure, Row, Unplaced};
 use crate::printed::{self, Place, Printed};
-use crate::read::columns::{Role, names_factor};
+use crate::read::amounts;
+use crate::read::columns::{Role, is_unit, names_factor};
 use crate::read::footer;
 use crate::read::kind::{names_distribution, spelled};
 use crate::read::words::{alone, has};
@@ -67,6 +68,7 @@ impl<'a> Line<'a> {
                 unit: alone(self.unit_beside(0)).to_string(),
                 unread_unit: self.unread_unit(),
                 unread_distribution: self.unread_distribution(),
+                unread_used: self.unread_used(),
                 is_hidden: self.grid.hidden_rows.contains(&self.row),
                 distribution: self.distribution(),
                 evaluation: self.text(Role::Type),
@@ -116,7 +118,7 @@ impl<'a> Line<'a> {
 
     fn figure(self, role: Role) -> Option<Printed> {
         let mut figure = self.written(role)?;
-        if role != Role::C && !is_read(&figure.unit) {
+        if role != Role::C && !is_unit(&figure.unit) {
             figure.unit.clear();
         }
         Some(figure)
@@ -125,16 +127,20 @@ impl<'a> Line<'a> {
     /// A figure with what stands in the place of its unit.
     fn written(self, role: Role) -> Option<Printed> {
         let column = self.located.column(role)?;
-        let cell = self.grid.cell(self.row, column.index);
-        let mut figure = cell.figure()?.at(self.place(column.index));
+        let figure = self.grid.cell(self.row, column.index).figure()?;
+        Some(self.in_column(column, figure))
+    }
+
+    /// A figure of a column in its unit, or that of the column, or the one that stands beside it.
+    fn in_column(self, column: &Column, mut figure: Printed) -> Printed {
         if figure.unit.is_empty() {
             figure.unit.clone_from(&column.unit);
         }
-        if figure.unit.is_empty() && matches!(role, Role::Value | Role::Used | Role::U) {
+        if figure.unit.is_empty() && matches!(column.role, Role::Value | Role::Used | Role::U) {
             figure.unit = self.unit_beside(column.index).to_string();
         }
         figure.unit = alone(&figure.unit).to_string();
-        Some(figure)
+        figure.at(self.place(column.index))
     }
 
     /// The sensitivity coefficient: a figure, or a product of figures that the cell writes out, `150 mm×11.5×10⁻⁶/℃`.
@@ -151,7 +157,7 @@ impl<'a> Line<'a> {
         // What is behind the first number of a product is no unit of it.
         let is_product = text.contains(['=', '×', '*', '·', '⋅']);
         let is_own =
-            |figure: &Printed| !is_product || figure.unit.is_empty() || is_read(&figure.unit);
+            |figure: &Printed| !is_product || figure.unit.is_empty() || is_unit(&figure.unit);
         let figure = self.figure(Role::C).filter(is_own);
         match (figure, made) {
             // The same, with the digits that it has.
@@ -195,7 +201,7 @@ impl<'a> Line<'a> {
         let roles = [Role::Value, Role::Used, Role::U, Role::Contribution];
         let mut figures = roles.into_iter().filter_map(|role| self.written(role));
         let unread =
-            |figure: &Printed| figure.unit.contains(char::is_alphabetic) && !is_read(&figure.unit);
+            |figure: &Printed| figure.unit.contains(char::is_alphabetic) && !is_unit(&figure.unit);
         figures.find(unread).map(|figure| Unplaced {
             at: figure.at,
             text: figure.unit,
@@ -260,6 +266,11 @@ impl<'a> Line<'a> {
         {
             return (Some(figure), "");
         }
+        let is_plain = Printed::parse(text).is_some_and(|figure| is_plain(&figure.unit));
+        let made = amounts::limit(text).filter(|_| !is_plain);
+        if let Some((column, (figure, remark))) = column.zip(made) {
+            return (Some(self.in_column(column, figure)), remark);
+        }
         let bracketed = printed::leading(text);
         let bracketed = bracketed.filter(|(_, behind)| behind.trim_start().starts_with('('));
         let remark = match &bracketed {
@@ -278,6 +289,17 @@ impl<'a> Line<'a> {
         (self.figure(Role::Used).or_else(in_front), remark)
     }
 
+    /// What the column of limits says, where that is no figure, and more than that there is none.
+    fn unread_used(self) -> Option<Unplaced> {
+        let column = self.located.column(Role::Used)?;
+        let text = self.text_in(column);
+        let is_unread = self.used().0.is_none() && says_something(text);
+        is_unread.then(|| Unplaced {
+            at: self.place(column.index),
+            text: text.to_owned(),
+        })
+    }
+
     /// The estimate and the ± of a cell that has both.
     fn with_estimate(self) -> Option<(Printed, Printed)> {
         let column = self.located.column(Role::Used)?;
@@ -289,7 +311,7 @@ impl<'a> Line<'a> {
             }
         }
         let at = self.place(column.index);
-        (is_read(&half.unit) || half.unit.is_empty()).then(|| (value.at(at), half.at(at)))
+        (is_unit(&half.unit) || half.unit.is_empty()).then(|| (value.at(at), half.at(at)))
     }
 
     /// The figure of a row whose remark is nothing else, where the row says by what it was divided, and no column is one of limits.
@@ -344,9 +366,25 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Whether a text is a unit, or the power of ten that stands for one.
-fn is_read(unit: &str) -> bool {
-    units::parse(unit).is_some() || units::power_of_ten(unit).is_some()
+/// Whether nothing but a unit stands behind a figure.
+fn is_plain(unit: &str) -> bool {
+    unit.is_empty() || is_unit(unit)
+}
+
+/// Whether a cell says more than that it has nothing to say.
+fn says_something(text: &str) -> bool {
+    const NOTHING: [&str; 8] = [
+        "n/a",
+        "na",
+        "none",
+        "negligible",
+        "not applicable",
+        "无",
+        "忽略",
+        "可忽略",
+    ];
+    let lower = text.to_lowercase();
+    text.contains(char::is_alphanumeric) && !NOTHING.contains(&lower.as_str())
 }
 
 /// Whether a head of what was computed from others is that of shares in the variance.

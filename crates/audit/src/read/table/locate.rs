@@ -137,11 +137,11 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
     let figure = |role: Role| Printed::parse(text(role)).is_some();
     let named = !text(Role::Symbol).is_empty() || !text(Role::Name).is_empty();
     let count = figures(grid, row, located);
-    // Words about a row, its figures and its distribution label nothing.
+    // Words about a row, its figures, their unit (K) and its distribution label nothing.
     let labels = |column: usize| {
-        use Role::{Distribution, Remark, Used, Value};
+        use Role::{Distribution, Remark, Unit, Used, Value};
         let role = located.columns.iter().find(|c| c.index == column);
-        role.is_none_or(|c| !matches!(c.role, Remark | Value | Used | Distribution))
+        role.is_none_or(|c| !matches!(c.role, Remark | Value | Used | Unit | Distribution))
     };
     let first = grid.filled(row).next().map_or(0, |(column, _)| column);
     let labelled = grid.filled(row).take(3).any(|(column, cell)| {

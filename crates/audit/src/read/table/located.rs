@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::claim::Understood;
 use crate::printed::Place;
 use crate::read::columns::{self, Role};
-use crate::sheet::{Grid, Head};
+use crate::sheet::{Cell, Grid, Head};
 
 /// A table that was found.
 #[derive(Debug, Clone)]
@@ -72,6 +72,29 @@ impl Located {
     /// Rows that are no text beside the table.
     pub fn is_used(&self, row: usize) -> bool {
         self.used.contains(&row)
+    }
+
+    /// What stands in the rows of the table behind its last column.
+    pub fn beside(&self, grid: &Grid) -> Grid {
+        // Labels beside a table stand below no head.
+        let headed = self.columns.iter().filter(|c| !c.head.is_empty());
+        let last = headed.map(|column| column.index).max();
+        let is_beside = |row: usize, column: usize| {
+            let of_table = row == self.head || self.is_row(row);
+            of_table && last.is_some_and(|last| column > last)
+        };
+        let rows = grid.rows.iter().enumerate().map(|(row, cells)| {
+            let cells = cells.iter().enumerate();
+            let kept = cells.map(|(column, cell)| match is_beside(row, column) {
+                true => cell.clone(),
+                false => Cell::default(),
+            });
+            kept.collect()
+        });
+        Grid {
+            rows: rows.collect(),
+            ..Grid::default()
+        }
     }
 
     /// Whether a row of the sheet stands between rows of the budget.

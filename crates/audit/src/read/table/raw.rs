@@ -63,7 +63,17 @@ impl Raw {
         let same = |a: &str, b: &str| !a.is_empty() && a == b;
         same(&self.row.symbol, &other.row.symbol)
             || (self.row.symbol.is_empty() || other.row.symbol.is_empty())
-                && same(&self.row.name, &other.row.name)
+                && same(self.row.label(), other.row.label())
+    }
+
+    /// Whether the longer name of both begins with the shorter: `Repeatability` and `Repeatability, s of the mean`.
+    pub fn is_like(&self, other: &Raw) -> bool {
+        let (own, other) = (self.row.label(), other.row.label());
+        let begins = |long: &str, short: &str| {
+            let behind = long.strip_prefix(short).filter(|_| !short.is_empty());
+            behind.is_some_and(|behind| !behind.starts_with(char::is_alphanumeric))
+        };
+        begins(own, other) || begins(other, own)
     }
 
     /// Takes over what a table of what is known says of the quantity.

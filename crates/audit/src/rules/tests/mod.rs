@@ -300,3 +300,38 @@ fn a_correlation_in_words_is_asked_about() {
         assert!(!fired(line), "{line}");
     }
 }
+
+/// Shares that total 100 % may be those of the amounts, and not of their squares.
+#[test]
+fn shares_are_those_of_the_squares() {
+    let fired = |first: u8, last: u8| {
+        let text = format!(
+            "Source,± / N,Distribution,Divisor,u / N,Contribution (%)\nStandard (k=2),0.40,normal,2,0.200,{first}\n\
+             Drift,0.30,rectangular,1.732,0.173,37\nRepeatability of mean,0.10,normal,1,0.100,{last}\nu_c,,,,0.283,100\nU (k=2),,,,0.57,\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let numbers = findings(&audit(&claims[0]).found);
+        numbers.iter().any(|finding| finding.rule().number == 5)
+    };
+    assert!(!fired(50, 13));
+    // 0.200 of 0.473 is 42 %.
+    assert!(fired(42, 21));
+}
+
+/// A short Chinese name in front of a colon names its row: the resolution is in the list.
+#[test]
+fn a_resolution_in_a_list_is_no_missing_one() {
+    let asks = |row: &str| {
+        let text = format!(
+            "电子天平校准不确定度评定\n1. A类评定：重复测量6次，s = 0.32 mg，uA = s/√6 = 0.131 mg\n2. B类评定：\n 标准砝码：U = 0.3 mg，k = 2，uB1 = 0.15 mg\n\
+             \x20{row}：0.5 mg（半宽），均匀分布，uB2 = 0.5/√3 = 0.289 mg\n3. 合成标准不确定度：uc = 0.351 mg\n4. 扩展不确定度：U = k·uc = 0.70 mg，k = 2\n"
+        );
+        let grids = grid::grids("list.txt", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let findings = findings(&audit(&claims[0]).found);
+        findings.iter().any(|finding| finding.rule().number == 34)
+    };
+    assert!(!asks("天平分辨力"));
+    assert!(asks("空气浮力"));
+}

@@ -214,7 +214,7 @@ pub(super) fn scale(squares: &[f64]) -> f64 {
         }
         scale = weighted / weights;
         // None at all where all differences are zero.
-        if !((scale - before).abs() > SAME * before) {
+        if (scale - before).abs() <= SAME * before || scale.is_nan() {
             break;
         }
     }

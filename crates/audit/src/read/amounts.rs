@@ -174,7 +174,8 @@ fn product(text: &str) -> Option<(Amount, &str)> {
     let mut is_share = false;
     loop {
         if starts_quotient(rest.trim_start()) {
-            let (by, behind) = leading(&rest.trim_start()[1..])?;
+            let (by, behind) =
+                leading(&rest.trim_start()[1..]).filter(|(by, _)| by.value != 0.0)?;
             let (unit, behind) = match figure.unit.as_str() {
                 "" => unit(behind.trim_start()),
                 _ => ("", behind),
@@ -311,6 +312,8 @@ mod tests {
             ("(-0.1~0.1) V", 0.1, "V"),
             ("0.2/2 V", 0.1, "V"),
             ("0.2 V/2", 0.1, "V"),
+            ("0.2 V÷2", 0.1, "V"),
+            ("maximum 0.1 V", 0.1, "V"),
             ("2×0.05 V", 0.1, "V"),
             ("0.1 V, k=√3", 0.1, "V"),
             ("U95=0.1 V", 0.1, "V"),
@@ -333,6 +336,7 @@ mod tests {
             "5 readings",
             "0.1 of 10",
             "1 V of 10 V",
+            "0.1 V/0",
             "k = 2",
             "[-0.1, 0.2] V",
         ] {

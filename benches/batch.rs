@@ -2,7 +2,8 @@
 //! doubles to columns of doubles. Ten inputs with value and u, as in `fleet.py`. CPU time, medians.
 //!
 //! ```text
-//! cargo bench --bench batch
+//! cargo bench --bench batch                    # both ways
+//! cargo bench --bench batch -- 'text to text'  # those with a part in their name
 //! ```
 
 mod common;
@@ -11,7 +12,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use common::cpu_time;
+use common::{cpu_time, words};
 use gumption::Files;
 use gumption::batch::{self, Plan};
 use gumption::budget::BatchFile;
@@ -85,20 +86,24 @@ fn main() {
         ("from text to text", &from_text),
         ("from columns to columns", &from_columns),
     ];
-    let mut seconds = [Vec::new(), Vec::new()];
+    let parts: Vec<String> = words().collect();
+    let wanted = |name: &str| parts.is_empty() || parts.iter().any(|part| name.contains(part));
+    let ways: Vec<_> = ways.into_iter().filter(|(name, _)| wanted(name)).collect();
+    let mut seconds = vec![Vec::new(); ways.len()];
     for _ in 0..TURNS {
-        for (seconds, (_, way)) in seconds.iter_mut().zip(ways) {
+        for (seconds, (_, way)) in seconds.iter_mut().zip(&ways) {
             let start = cpu_time();
             way();
             seconds.push(cpu_time() - start);
         }
     }
-    let rates = seconds.map(|mut seconds| {
+    let rates = seconds.into_iter().map(|mut seconds| {
         seconds.sort_by(f64::total_cmp);
         ROWS as f64 / seconds[TURNS / 2]
     });
+    let rates: Vec<f64> = rates.collect();
     println!("rows per second and core, of {ROWS}");
-    for ((name, _), rate) in ways.iter().zip(rates) {
+    for ((name, _), rate) in ways.iter().zip(&rates) {
         println!("{name:24} {:9.0}   × {:.2}", rate, rate / rates[0]);
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis, Failure};
 use gumption::document::Document;
-use gumption::fault::say;
+use gumption::fault::{Said, say};
 use gumption::files::write::Output;
 use gumption::render::svg;
 use gumption::report::{self, Language};
@@ -109,18 +109,14 @@ fn beside(
     let mut files = Vec::new();
     if let Some(folder) = &args.improved {
         let budget = diagnose::budget(case, diagnosis);
-        let mut contents = vec![(IMPROVED[0].to_owned(), budget.into_bytes())];
-        match diagnose::improved(case, diagnosis) {
-            Some(improved) => {
-                let improved = improved.into_iter();
-                contents.extend(improved.map(|(name, text)| (name.to_owned(), text.into_bytes())));
-            }
-            None => output::note(
-                &say!("nothing was adopted: there is no improved experiment, only the budget")
-                    .in_language(args.form.language()),
-                args.form.language(),
-            ),
+        let improved = diagnose::improved(case, diagnosis);
+        if let Some(missing) = missing(budget.is_some(), improved.is_some()) {
+            let language = args.form.language();
+            output::note(&missing.in_language(language), language);
         }
+        let budget = budget.map(|text| (IMPROVED[0], text));
+        let contents = budget.into_iter().chain(improved.into_iter().flatten());
+        let contents = contents.map(|(name, text)| (name.to_owned(), text.into_bytes()));
         files.extend(output::in_folder(folder, contents)?);
     }
     if let Some(folder) = &args.plots {
@@ -129,4 +125,18 @@ fn beside(
         files.extend(output::in_folder(folder, drawn)?);
     }
     Ok(files)
+}
+
+/// What is said of an improved experiment, or a budget of its parameters, that there is not.
+fn missing(has_budget: bool, is_improved: bool) -> Option<Said> {
+    match (has_budget, is_improved) {
+        (true, true) => None,
+        (true, false) => Some(say!(
+            "nothing was adopted: there is no improved experiment, only the budget"
+        )),
+        (false, true) => Some(say!("the model has no parameter: there is no budget")),
+        (false, false) => Some(say!(
+            "nothing was adopted, and the model has no parameter: nothing is written"
+        )),
+    }
 }

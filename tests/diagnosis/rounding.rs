@@ -76,6 +76,40 @@ fn a_claim_with_the_resolution_agrees() {
     }
 }
 
+/// Loads that a display shows exactly, but for readings that are one step off: with so little noise no error is normal, and no reading
+/// is wrong. Whether the step shows itself or is stated.
+#[test]
+fn readings_one_step_off_are_no_wrong_readings() {
+    let case = |output: &str| {
+        format!("equations = \"y = x\"\n[columns]\nx = \"stimulus\"\ny = {output}\n")
+    };
+    let loads = [0, 2, 4, 6, 8, 10, 12, 15, 12, 8, 4, 0].map(f64::from);
+    for (off, seen) in [(vec![4], false), (vec![2, 7], true), (vec![1, 5, 8], true)] {
+        let mut rows = "x [kg],y [kg]\n".to_owned();
+        for (row, load) in loads.iter().enumerate() {
+            let shown = load - 0.005 * f64::from(u8::from(off.contains(&row)));
+            let _ = writeln!(rows, "{load:.3},{shown:.3}");
+        }
+        let mut outputs = vec!["{ role = \"output\", resolution = \"5 g\" }"];
+        outputs.extend(seen.then_some("\"output\""));
+        for output in outputs {
+            let found = diagnosed_with("rounding-one-off", &rows, &case(output));
+            assert_eq!(found["verdict"], "none", "{off:?}, {output}: {found}");
+        }
+    }
+    // Three steps off is another thing.
+    let far = |row: usize| f64::from(u8::from(row == 4)) * 0.015;
+    let rows = loads.iter().enumerate();
+    let rows = rows.map(|(row, load)| format!("{load:.3},{:.3}\n", load + far(row)));
+    let rows = format!("x [kg],y [kg]\n{}", rows.collect::<String>());
+    let found = diagnosed_with(
+        "rounding-three-off",
+        &rows,
+        &case("{ role = \"output\", resolution = \"5 g\" }"),
+    );
+    assert_ne!(found["verdict"], "none", "{found}");
+}
+
 /// Who asks for the rounding then is told that the noise holds it.
 #[test]
 fn rounding_that_is_claimed_is_a_part_of_the_noise() {

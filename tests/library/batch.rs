@@ -509,6 +509,13 @@ fn what_no_row_can_mend_is_refused() {
     assert!(refused(budget, "\"r(x, z)\"\n1\n").contains("no correlation between x and z"));
     assert!(refused(budget, "x [mV/]\n1\n").contains("table.csv:1"));
     assert!(refused(budget, "").contains("empty"));
+    // A misspelt key is one in every row.
+    let misspelt = refused(budget, "label,x,x.hlf_width\na,1,0.1\nb,2,0.1\n");
+    assert!(misspelt.contains("table.csv:1:9"), "{misspelt}");
+    assert!(
+        misspelt.contains("did you mean `half_width`?"),
+        "{misspelt}"
+    );
     // What spreadsheets write behind the last column, and the index of a frame.
     for nameless in ["x,\n1,\n", ",x\n0,1\n"] {
         assert!(refused(budget, nameless).contains("a column has no name"));

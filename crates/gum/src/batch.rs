@@ -23,6 +23,7 @@ use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
 use gumption_format::csv::{self, Columns, Pieces, Sheet};
+use gumption_format::toml::faults::UNKNOWN_KEY;
 use gumption_lanes::LANES;
 use lot::{Part, Place};
 
@@ -68,7 +69,7 @@ pub fn run<T: Default + Send>(
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?
         .above_units(&file.units());
     let batch = file.batch(&head, table, &plan.keep)?;
-    let mut run = Run::new(&batch, plan, &head);
+    let mut run = Run::new(&batch, plan, (&head, table));
     let mut work = |sheet: &Sheet<'_>, read: u64| {
         let rows: Vec<_> = sheet.rows().collect();
         run.learn(sheet, &rows)?;
@@ -109,7 +110,7 @@ pub fn run_columns<'c, T: Default + Send>(
     if let Some(fault) = batch.mean_of(first.borrow(), &sheet) {
         return Err(Rejection::new(table, &head, vec![fault]));
     }
-    let mut run = Run::new(&batch, plan, &sheet);
+    let mut run = Run::new(&batch, plan, (&sheet, table));
     for piece in once(Ok(first)).chain(pieces) {
         let piece = piece.map_err(refused)?;
         let columns = piece.borrow();
@@ -142,6 +143,8 @@ fn empty<T>() -> Result<T, Box<Fault>> {
 struct Run<'b> {
     batch: &'b Batch<'b>,
     plan: &'b Plan,
+    /// The name of the table.
+    table: &'b str,
     /// Heads of the columns that are kept.
     kept: Vec<String>,
     /// The pattern of rows that are numbers, as soon as it is known whether there is one.
@@ -153,11 +156,12 @@ struct Run<'b> {
 }
 
 impl<'b> Run<'b> {
-    fn new(batch: &'b Batch<'b>, plan: &'b Plan, head: &Sheet<'_>) -> Run<'b> {
+    fn new(batch: &'b Batch<'b>, plan: &'b Plan, (head, table): (&Sheet<'_>, &'b str)) -> Run<'b> {
         let kept = batch.kept().iter();
         Run {
             batch,
             plan,
+            table,
             kept: kept.map(|at| head.header().field(*at).to_owned()).collect(),
             known: None,
             spare: Vec::new(),
@@ -176,7 +180,7 @@ impl<'b> Run<'b> {
         rows: &[Result<csv::Row<'_>, Box<csv::BadRow<'_>>>],
     ) -> Result<(), Rejection> {
         if self.number == 0 {
-            hopeless(self.batch, sheet, rows)?;
+            hopeless(self.batch, (sheet, self.table), rows)?;
         }
         if self.is_to_learn() {
             self.known = self.batch.pattern(rows.iter().flatten(), sheet);
@@ -222,29 +226,41 @@ impl<'b> Run<'b> {
     }
 }
 
-/// Whether the budget has faults that are there without any row and with each of the first.
+/// Whether the budget has faults that are there without any row and with each of the first, or a column of the table names a key
+/// that there is not.
 fn hopeless(
     batch: &Batch<'_>,
-    sheet: &Sheet<'_>,
+    (sheet, table): (&Sheet<'_>, &str),
     rows: &[Result<csv::Row<'_>, Box<csv::BadRow<'_>>>],
 ) -> Result<(), Rejection> {
     /// Rows that are tried.
     const FEW: usize = 16;
     let reader = batch.reader();
-    let Err(mut own) = reader.alone() else {
-        return Ok(());
-    };
-    let mut tried = 0;
+    let own = reader.alone();
+    let mut left = own.as_ref().err().map(|own| own.faults.clone());
     for row in rows.iter().flatten().take(FEW) {
-        match reader.row(row, sheet) {
-            Ok(_) => return Ok(()),
-            Err(with_row) => own.faults.retain(|fault| with_row.faults.contains(fault)),
+        let Err(with_row) = reader.row(row, sheet) else {
+            return Ok(());
+        };
+        match &mut left {
+            Some(left) => left.retain(|fault| with_row.faults.contains(fault)),
+            None => left = Some(with_row.faults),
         }
-        tried += 1;
     }
-    match tried == 0 || own.faults.is_empty() {
-        true => Ok(()),
-        false => Err(own),
+    let faults = left.unwrap_or_default();
+    match own {
+        Err(own) if !faults.is_empty() && !rows.is_empty() => Err(Rejection { faults, ..own }),
+        Ok(_) => {
+            let columns = 0..sheet.header().len();
+            let heads: Vec<Range<usize>> = columns.map(|at| sheet.name_place(at)).collect();
+            let of_head = |fault: &Fault| fault.code == UNKNOWN_KEY && heads.contains(&fault.span);
+            let faults: Vec<Fault> = faults.into_iter().filter(of_head).collect();
+            match faults.is_empty() {
+                true => Ok(()),
+                false => Err(Rejection::new(table, sheet.text(), faults)),
+            }
+        }
+        Err(_) => Ok(()),
     }
 }
 

@@ -205,8 +205,9 @@ impl Made {
             What::Diagnosis(case, found) => {
                 let improved = diagnose::improved(case, found).into_iter().flatten();
                 let improved = improved.map(|(name, text)| (name.to_owned(), text));
-                let budget = ("budget.toml".to_owned(), diagnose::budget(case, found));
-                std::iter::once(budget).chain(improved).collect()
+                let budget = diagnose::budget(case, found);
+                let budget = budget.map(|text| ("budget.toml".to_owned(), text));
+                budget.into_iter().chain(improved).collect()
             }
             _ => Vec::new(),
         })

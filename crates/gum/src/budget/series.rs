@@ -19,7 +19,7 @@ use super::faults::SERIES;
 use super::tables::SeriesTable;
 use columns::{OWNERS, numbered};
 use gumption_fault::{Fault, say};
-use gumption_format::toml::{Raw, Stated};
+use gumption_format::toml::{Raw, Stated, amount_parts};
 use places::{COMPONENTS, leave_out, set};
 
 pub(super) use columns::{Column, LABEL, column, set_twice, targets};
@@ -237,9 +237,12 @@ fn is_left_out(cell: &Entry, path: &[String]) -> bool {
     let deviation = path
         .last()
         .is_some_and(|key| DEVIATIONS.contains(&key.as_str()));
+    let is_none = |number: f64| number == 0.0 && deviation && owned;
     match cell {
-        Entry::Text(text) => text.is_empty(),
-        Entry::Number(number) => *number == 0.0 && deviation && owned,
+        Entry::Text(text) => {
+            text.is_empty() || amount_parts(text).is_some_and(|(number, _)| is_none(number))
+        }
+        Entry::Number(number) => is_none(*number),
         Entry::List => false,
     }
 }
@@ -430,6 +433,26 @@ rows = [["a", 295.65, 600], ["b", "296 K", "0.9 K"]]
         let refused = read(&unknown, "budget.toml", Path::new("")).expect_err("no unit");
         let place = refused.faults[0].span.clone();
         assert_eq!((&unknown[place], refused.faults.len()), ("parsec", 1));
+    }
+
+    #[test]
+    fn an_uncertainty_of_zero_is_left_out_in_any_unit() {
+        let file = |column: &str, cell: &str| {
+            format!(
+                "[measurand.Y]\nmodel = \"V\"\nunit = \"V\"\n[input.V]\nvalue = 1\nunit = \"V\"\ncomponents = [{{ name = \"a\", u = 1 }}, {{ name = \"b\", u = 2 }}]\n[series]\ncolumns = [\"label\", \"{column}\"]\nrows = [[\"one\", 3], [\"other\", {cell}]]\n"
+            )
+        };
+        for (column, cell) in [
+            ("V.b.u", "0"),
+            ("V.b.u [mV]", "0"),
+            ("V.b.u", "\"0 mV\""),
+            ("V.b.u [mV]", "\"\""),
+        ] {
+            let loaded = read(&file(column, cell), "budget.toml", Path::new(""));
+            let loaded = loaded.expect("a budget");
+            let counts = [0, 1].map(|row| loaded.rows[row].budget.components.len());
+            assert_eq!(counts, [2, 1], "{column}, {cell}");
+        }
     }
 
     /// Lists of numbers have no units of their own: those under a head with a unit are converted to that of their quantity.

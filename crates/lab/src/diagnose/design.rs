@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use super::blocks::blocks;
 use super::case::{Case, Observed, Role, interval};
 use super::catalogue::modifiers::{mean, range, usual};
+use crate::recording::resolution::{Steps, resolution, stated_steps, steps};
 use gumption_core::quantity::Unit;
 
 /// The numbers of a case.
@@ -326,6 +327,29 @@ impl<'c> Design<'c> {
             Observed::Constant(value) => vec![value; self.case.rows],
             Observed::Column(column) => (self.case.columns[column].numbers())
                 .map_or_else(|| vec![f64::NAN; self.case.rows], <[f64]>::to_vec),
+        }
+    }
+
+    /// The equal steps in which a response is read, as they are stated, or as coarse ones show themselves.
+    pub fn steps(&self, response: usize) -> Option<Steps> {
+        let observed = self.observed(response);
+        let stated = self.stated_step(response);
+        stated.map_or_else(
+            || steps(&observed),
+            |step| Some(stated_steps(step, &observed)),
+        )
+    }
+
+    /// The step to which the readings of a response are rounded: as it is stated, or as they show it themselves.
+    pub fn resolution(&self, response: usize) -> Option<f64> {
+        let stated = self.stated_step(response);
+        stated.or_else(|| resolution(&self.observed(response)))
+    }
+
+    fn stated_step(&self, response: usize) -> Option<f64> {
+        match self.case.responses[response].observed {
+            Observed::Column(column) => self.case.columns[column].resolution,
+            Observed::Constant(_) => None,
         }
     }
 

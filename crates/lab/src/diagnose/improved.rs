@@ -146,7 +146,7 @@ fn entry(column: &Column, case: &Case, step: Option<f64>) -> String {
         ("u", column.u),
         ("u_common", column.u_common),
         ("full_scale", column.full_scale),
-        ("resolution", step),
+        ("resolution", step.or(column.resolution)),
     ];
     let stated = stated.map(|(key, stated)| stated.map(|value| format!("{key} = {value:e}")));
     let heading = heading.map(|heading| format!("column = {}", quoted(&heading)));

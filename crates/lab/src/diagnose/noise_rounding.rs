@@ -13,7 +13,7 @@ use super::design::Design;
 use super::evidence::Correlation;
 use super::fit::Fit;
 use super::noise_correlation::{Correlated, Memory};
-use crate::recording::resolution::{resolution, u_of_step};
+use crate::recording::resolution::u_of_step;
 use gumption_core::special::{
     chi_squared_cdf, chi_squared_sf, chi_squared_upper_quantile, normal_upper_quantile,
 };
@@ -113,6 +113,19 @@ pub(super) fn estimated(design: &Design<'_>, fit: &Fit) -> Vec<Rounded> {
         seen(design, fit, without, steps).filter(|rounded| rounded.correlated.is_some())
     };
     sizes.take_while(is_usual).filter_map(beside).collect()
+}
+
+/// Whether readings come in steps so coarse that their errors are far from normal: with noise of less than half a step before the
+/// rounding, an error that is normal before it is one of few values (Widrow and Kollár; see [`in_common`]).
+pub(super) fn is_coarse(design: &Design<'_>, fit: &Fit) -> bool {
+    let own = 0.5f64.powi(2) + 1.0 / 12.0;
+    let readings = design.case.rows as f64 / design.blocks.len() as f64;
+    let is_coarse = |response: usize| {
+        let of_reading = left(design, fit, response) * readings.sqrt();
+        let step = design.resolution(response);
+        step.is_some_and(|step| of_reading < step * own.sqrt())
+    };
+    (0..design.case.responses.len()).any(is_coarse)
 }
 
 /// Whether a model may leave so much of a response where its errors have this standard uncertainty.
@@ -222,7 +235,7 @@ fn steps(design: &Design<'_>, fit: &Fit, is_held: &dyn Fn(usize, f64) -> bool) -
         if matches!(of.observed, Observed::Constant(_)) {
             return None;
         }
-        let step = resolution(&design.observed(response))?;
+        let step = design.resolution(response)?;
         let is_met = left(design, fit, response) < MET * u_of_step(step);
         (!is_met && !is_held(response, step)).then_some(step)
     };

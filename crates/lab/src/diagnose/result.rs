@@ -21,8 +21,8 @@ use gumption_format::toml::writing::{key, quoted};
 const MATTERS: f64 = 0.01;
 
 /// The budget file of the parameters of a diagnosed case, with the adopted physics in the model if there
-/// is any.
-pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
+/// is any; `None` for a model without parameters.
+pub fn budget(case: &Case, diagnosis: &Diagnosis) -> Option<String> {
     let (model, fit) = match &diagnosis.adopted {
         Some(adopted) => (&adopted.extended.case, &adopted.fit),
         None => (case, &diagnosis.fit),
@@ -30,6 +30,9 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
     let estimates = diagnosis.estimates();
     let design = Design::new(model);
     let results = results(&design, estimates);
+    if results.is_empty() {
+        return None;
+    }
     // What correlates has degrees of freedom in common: the fewest.
     let dofs = estimates.iter().map(|estimate| estimate.dof);
     let dof = dofs.fold(f64::INFINITY, f64::min);
@@ -50,7 +53,7 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
         text += &format!("\n[input.{name}]\ndescription = {description}\n");
         text += "value = 0\nhalf_width = 1\n";
     }
-    text + &correlations(&design, fit, diagnosis, &results)
+    Some(text + &correlations(&design, fit, diagnosis, &results))
 }
 
 /// A parameter that is reported.

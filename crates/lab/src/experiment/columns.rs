@@ -195,6 +195,8 @@ impl<'s> Checker<'s> {
         let said = table.role.as_ref().filter(|_| !base && !is_given);
         let declared = entries(&self.source.table.columns);
         let is_declared = |given: &&String| declared.iter().any(|(name, _)| name == *given);
+        // An equation that gives nothing has a fault of its own, which may be why.
+        let said = said.filter(|_| names.responses.iter().all(|given| !given.is_empty()));
         let undeclared = names.responses.iter().find(|given| !is_declared(given));
         self.faults
             .extend(said.and_then(|said| without_equation(name, said, undeclared)));

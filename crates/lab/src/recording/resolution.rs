@@ -39,20 +39,29 @@ pub fn steps(readings: &[f64]) -> Option<Steps> {
         return None;
     }
     let digit = digit(&values)?;
-    let (step, tried) = largest_step(&values, digit)?;
-    // Of the readings that the file can hold, so many lie next to a step, on either side.
-    let near = (2.0 * digit / step).min(1.0);
-    let by_chance = tried as f64 * libm::pow(near, (values.len() - 2) as f64);
+    let Largest { step, tried, held } = largest_step(&values, digit)?;
+    let by_chance = tried as f64 * libm::pow(held, (values.len() - 2) as f64);
     let again = values.len() as f64 <= ALIKE * readings.len() as f64;
-    if by_chance > CHANCE && !again {
-        return None;
-    }
+    (by_chance <= CHANCE || again).then(|| from_origin(step, &values, digit))
+}
+
+/// Steps that are stated, with one of the readings that are possible.
+pub fn stated_steps(step: f64, readings: &[f64]) -> Steps {
+    let readings: Vec<f64> = (readings.iter().copied())
+        .filter(|x| x.is_finite())
+        .collect();
+    let values = levels_of(&readings);
+    from_origin(step, &values, digit(&values).unwrap_or(0.0))
+}
+
+fn from_origin(step: f64, values: &[f64], digit: f64) -> Steps {
     let from_zero = |x: &f64| (x - (x / step).round() * step).abs() <= digit;
+    let first = values.first().copied().unwrap_or(0.0);
     let origin = match values.iter().all(from_zero) {
         true => 0.0,
-        false => values[0],
+        false => first,
     };
-    Some(Steps { step, origin })
+    Steps { step, origin }
 }
 
 /// Steps that are followed up at most: of more than these, some fit anything.
@@ -74,9 +83,17 @@ fn digit(values: &[f64]) -> Option<f64> {
     Some(libm::pow(10.0, f64::from(-place)))
 }
 
-/// The largest step of which all distances of ascending values are multiples, each value rounded to a digit, and how many steps
-/// were possible on the way to it.
-fn largest_step(values: &[f64], digit: f64) -> Option<(f64, usize)> {
+/// The largest step of which all distances of values are multiples.
+struct Largest {
+    step: f64,
+    /// How many were possible on the way to it.
+    tried: usize,
+    /// Of the readings that the file can hold, the share that lies on such steps.
+    held: f64,
+}
+
+/// The largest step of which all distances of ascending values are multiples, each value rounded to a digit.
+fn largest_step(values: &[f64], digit: f64) -> Option<Largest> {
     let digits = |x: f64| (x / digit).round() as i64;
     let steps = values
         .windows(2)
@@ -91,7 +108,12 @@ fn largest_step(values: &[f64], digit: f64) -> Option<(f64, usize)> {
             true => exact as f64 / (1.0 / digit).round(),
             false => exact as f64 * digit,
         };
-        return Some((step, 1));
+        let held = digit / step;
+        return Some(Largest {
+            step,
+            tried: 1,
+            held,
+        });
     }
     // A bound is met by rounding as well.
     let slack = digit * (1.0 + 1e-6);
@@ -120,7 +142,10 @@ fn largest_step(values: &[f64], digit: f64) -> Option<(f64, usize)> {
         }
     }
     let (low, high) = possible.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((rounded(0.5 * (low + high), high - low), tried))
+    let step = rounded(0.5 * (low + high), high - low);
+    // Next to a step, on either side.
+    let held = (2.0 * digit / step).min(1.0);
+    Some(Largest { step, tried, held })
 }
 
 /// The largest whole number that divides both; zero is divided by all.

@@ -238,7 +238,12 @@ impl Checker<'_> {
         };
         let (number, unit, place) = match &entry.table.sensitivity {
             Some(sensitivity) => match &sensitivity.value.unit {
-                None => return Some(whole * sensitivity.value.number),
+                // A number goes with the units of both; of the same kind it is a ratio, as 1 is that is left out.
+                None => {
+                    let ratio = source.difference().conversion_to(&target);
+                    let factor = ratio.map_or(1.0, |ratio| ratio.factor);
+                    return Some(whole * sensitivity.value.number * factor);
+                }
                 Some((text, span)) => {
                     let text = Box::new(Stated {
                         value: text.clone(),

@@ -130,7 +130,8 @@ fn is_filled(name: &str, words: &str) -> bool {
 
 /// The words as the nearest words of some name have them, where one name has all of these.
 fn respelt(wanted: &str, names: impl Iterator<Item = String> + Clone) -> Option<String> {
-    let names = names.map(|name| plain(&name));
+    // What stands in brackets is no part of a word.
+    let names = names.map(|name| plain(&name).replace(['(', ')'], " "));
     names.into_iter().find_map(|name| {
         let near = wanted
             .split_whitespace()

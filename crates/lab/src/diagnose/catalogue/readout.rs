@@ -13,7 +13,7 @@ use super::sharp::nearly_all;
 use super::{Cell, EffectId, Modifier, Variation, tied};
 use crate::diagnose::case::Response;
 use crate::diagnose::evidence;
-use crate::recording::resolution::{Steps, steps};
+use crate::recording::resolution::Steps;
 
 /// Cells of the readout.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -24,11 +24,10 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 
 /// Rounding of the model's output to the step in which readings come: an error of known size.
 fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
-    let observed = fitted.design.observed(response);
     if fitted.is_implicit(response) || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
-    let Steps { step, origin } = steps(&observed)?;
+    let Steps { step, origin } = fitted.design.steps(response)?;
     let model = &fitted.fit.linear.values[response];
     let name = &fitted.case().responses[response].name;
     let unit = &fitted.case().responses[response].unit;

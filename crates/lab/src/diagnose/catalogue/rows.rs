@@ -9,12 +9,13 @@ use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
 use super::modifiers::{known, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
-use crate::recording::resolution::resolution;
 
 /// Longer recordings are not searched row by row.
 const MOST: usize = 800;
 /// Rows that are told by less than this share of themselves hold a parameter alone.
 const UNDETERMINED: f64 = 1e-6;
+/// A reading that is shown one step off lies no further from what it should be, in steps: half of one is rounded.
+const ONE_OFF: f64 = 1.5;
 /// Rows among which any two may be exchanged.
 const WORST: usize = 6;
 
@@ -25,13 +26,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         return Vec::new();
     }
     let named = |rows: &[usize]| fitted.design.called(rows[0], rows[rows.len() - 1]);
-    let observed = (0..fitted.case().responses.len()).map(|of| fitted.design.observed(of));
-    let steps: Vec<Option<f64>> = observed.map(|readings| resolution(&readings)).collect();
+    let responses = 0..fitted.case().responses.len();
+    let steps: Vec<Option<f64>> = responses.map(|of| fitted.design.resolution(of)).collect();
     // One step of a display more or less is rounding.
     let is_far = |(block, _): &(usize, &Vec<usize>)| {
         steps.iter().enumerate().any(|(response, step)| {
             let left = fitted.fit.residuals[response * blocks.len() + block];
-            step.is_none_or(|step| left.abs() > step)
+            step.is_none_or(|step| left.abs() > ONE_OFF * step)
         })
     };
     let outliers = (blocks.iter().enumerate()).filter(is_far).map(|(_, rows)| {

@@ -5,6 +5,7 @@ use crate::diagnose::candidates::baseline;
 use crate::diagnose::catalogue::{Cell, generics, readout};
 use crate::diagnose::evidence;
 use crate::diagnose::failure::Failure;
+use crate::diagnose::noise_rounding::is_coarse;
 use crate::recording::resolution::u_of_step;
 
 impl<'i> Inquiry<'i> {
@@ -27,7 +28,8 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         }
         let laws = claimed.laws(design, fit, courses);
-        if claimed.rounding.is_some() || laws.may_jump() {
+        // The test is one of normal errors.
+        if claimed.rounding.is_some() || laws.may_jump() || is_coarse(design, fit) {
             return Ok(());
         }
         let seen = claimed.seen_with(design, fit, &laws)?;

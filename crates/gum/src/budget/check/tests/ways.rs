@@ -333,6 +333,23 @@ fn a_source_is_stated_absolutely_in_percent_too() {
     close(budget.components[0].u, 0.003 / 3f64.sqrt());
 }
 
+/// A number without unit is a ratio of changes of the same kind: in mg or in g, 1 is what is left out.
+#[test]
+fn a_sensitivity_is_a_ratio_of_the_same_kind() {
+    let coefficient = |unit: &str, stated: &str| {
+        let text = format!(
+            "[measurand.Y]\nmodel = \"X\"\nunit = \"g\"\n[source.balance]\nunit = \"{unit}\"\nu = 2\n[input.X]\nvalue = 2\nunit = \"g\"\ncomponents = [{{ source = \"balance\"{stated} }}]\n"
+        );
+        budget(&text).inputs[0].terms[0].coefficient
+    };
+    close(coefficient("mg", ""), 1e-3);
+    close(coefficient("mg", ", sensitivity = -1"), -1e-3);
+    close(coefficient("mg", ", sensitivity = \"-1 mg/mg\""), -1e-3);
+    close(coefficient("g", ", sensitivity = -1"), -1.0);
+    // Of another kind it is in the units of both.
+    close(coefficient("K", ", sensitivity = 0.5"), 0.5);
+}
+
 #[test]
 fn three_readings_go_with_every_profile() {
     for profile in ["GUM", "EA", "JJF", "NIST", "UKAS"] {

@@ -135,6 +135,7 @@ pub(crate) fn with_power(figure: Printed) -> Printed {
 /// The fraction that a unit of ratios stands for: 0.01 for percent.
 pub(crate) fn fraction(unit: &str) -> Option<f64> {
     match unit.trim() {
+        "1" => Some(1.0),
         "%" | "percent" | "pct" | "％" => Some(1e-2),
         "‰" | "permille" => Some(1e-3),
         "ppm" | "µV/V" | "µm/m" | "mg/kg" | "µA/A" | "µΩ/Ω" => Some(1e-6),

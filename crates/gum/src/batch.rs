@@ -12,6 +12,7 @@ use std::iter::once;
 use std::ops::{ControlFlow, Range};
 use std::sync::{Mutex, PoisonError};
 
+use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::{
     Batch, BatchFile, Budget, MonteCarloSettings, Numbers, Pattern, RowReader, Wanted,
 };
@@ -227,7 +228,7 @@ impl<'b> Run<'b> {
 }
 
 /// Whether the budget has faults that are there without any row and with each of the first, or a column of the table names a key
-/// that there is not.
+/// or a component that there is not.
 fn hopeless(
     batch: &Batch<'_>,
     (sheet, table): (&Sheet<'_>, &str),
@@ -238,7 +239,9 @@ fn hopeless(
     let reader = batch.reader();
     let own = reader.alone();
     let mut left = own.as_ref().err().map(|own| own.faults.clone());
-    for row in rows.iter().flatten().take(FEW) {
+    let mut tried = rows.iter().flatten().take(FEW).peekable();
+    let is_tried = tried.peek().is_some();
+    for row in tried {
         let Err(with_row) = reader.row(row, sheet) else {
             return Ok(());
         };
@@ -249,11 +252,12 @@ fn hopeless(
     }
     let faults = left.unwrap_or_default();
     match own {
-        Err(own) if !faults.is_empty() && !rows.is_empty() => Err(Rejection { faults, ..own }),
+        Err(own) if is_tried && !faults.is_empty() => Err(Rejection { faults, ..own }),
         Ok(_) => {
             let columns = 0..sheet.header().len();
             let heads: Vec<Range<usize>> = columns.map(|at| sheet.name_place(at)).collect();
-            let of_head = |fault: &Fault| fault.code == UNKNOWN_KEY && heads.contains(&fault.span);
+            let is_unknown = |fault: &Fault| [UNKNOWN_KEY, UNKNOWN_NAME].contains(&fault.code);
+            let of_head = |fault: &Fault| is_unknown(fault) && heads.contains(&fault.span);
             let faults: Vec<Fault> = faults.into_iter().filter(of_head).collect();
             match faults.is_empty() {
                 true => Ok(()),

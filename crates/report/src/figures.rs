@@ -173,6 +173,10 @@ impl<'a> Figures<'a> {
                 "Reported are y and u of a Monte Carlo run in which what has few degrees of freedom has u itself as its standard deviation, as the profile has it: the model is too nonlinear for the GUM result.",
                 "报告的 y 和 u 取自蒙特卡洛法，其中自由度小的分量按规范以 u 本身为标准差：模型的非线性使 GUM 法的结果不适用。",
             ),
+            Reason::MomentsDiffer => (
+                "Reported is the Monte Carlo result: its y or u differs from that of the GUM by more than δ, whatever the interval.",
+                "报告采用蒙特卡洛法的结果：不论区间如何，其 y 或 u 与 GUM 法之差大于 δ。",
+            ),
             Reason::NotNegative => (
                 "Reported are y, u and the coverage interval of ISO 11929 for a measurand that is not negative.",
                 "报告的是 y、u 和 ISO 11929 对非负被测量给出的包含区间。",

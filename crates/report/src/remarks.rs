@@ -132,10 +132,7 @@ fn said(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> Sa
             )
         }
         FindingKind::NotValidated => not_validated(report, measurand),
-        FindingKind::Undecided { trials } => say!(
-            "Monte Carlo neither validates nor refutes the GUM result (JCGM 101, clause 8): with so many trials the ends of its interval are not known well enough to compare them to within δ. The statement uses the GUM result. For a verdict set trials to about {}, or take trials = \"adaptive\".",
-            grouped(*trials)
-        ),
+        FindingKind::Undecided { trials } => undecided(report, measurand, *trials),
         FindingKind::NeedsMonteCarlo => say!(
             "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it."
         ),
@@ -311,6 +308,19 @@ fn not_validated(report: &Report<'_>, measurand: Option<usize>) -> Said {
             "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its {p} interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result."
         ),
     }
+}
+
+fn undecided(report: &Report<'_>, measurand: Option<usize>, trials: u64) -> Said {
+    let taken = match reported(report, measurand) {
+        Reason::MomentsDiffer | Reason::NotValidatedFewReadings => say!(
+            "But the statement claims y and u, and one of them differs from that of Monte Carlo by more than δ, which the scatter of the trials does not explain. It therefore uses the Monte Carlo result."
+        ),
+        _ => say!("The statement uses the GUM result."),
+    };
+    say!(
+        "Monte Carlo neither validates nor refutes the interval of the GUM (JCGM 101, clause 8): with so many trials the ends of its interval are not known well enough to compare them to within δ. {taken} For a verdict set trials to about {}, or take trials = \"adaptive\".",
+        grouped(trials)
+    )
 }
 
 /// An amount in the unit of the measurand's differences.

@@ -92,7 +92,7 @@ fn symbol(text: &str) -> Option<Whole> {
 }
 
 /// The name in front of the condition under which a figure holds: `U` of `U(k = 2)`, `U, k = 2`, `U: k=2` and `U k=2`.
-fn without_condition(text: &str) -> &str {
+pub(super) fn without_condition(text: &str) -> &str {
     let front = text.split('=').next().unwrap_or_default().trim_end();
     let is_condition = front.len() < text.trim_end().len();
     let factor = ["k", "k_p", "p", "P"].iter().find_map(|name| {
@@ -369,6 +369,32 @@ pub fn set(footer: &mut Footer, whole: Whole, figure: Printed) -> bool {
         *slot = Some(figure);
     }
     free
+}
+
+/// Sets U as it is reported, in the place of one of the same unit that the sheet computes.
+pub fn set_reported(footer: &mut Footer, reported: Printed) -> bool {
+    let computed = footer.expanded.as_ref();
+    let is_other = computed.is_some_and(|own| !own.unit.is_empty() && own.unit != reported.unit);
+    if !is_other {
+        footer.expanded = Some(reported);
+    }
+    !is_other
+}
+
+/// Whether a label calls what is reported: `Reported U (k = 2)`, `Reported`, `扩展不确定度（修约后）`.
+pub fn is_report(label: &str) -> bool {
+    const WORDS: [&str; 8] = [
+        "reported",
+        "rounded",
+        "gerundet",
+        "angegeben",
+        "arrondi",
+        "报告",
+        "修约",
+        "取整",
+    ];
+    let lower = label.to_lowercase();
+    WORDS.iter().any(|word| lower.contains(word))
 }
 
 /// U as a statement has it in the place of the one that the sheet computes with more digits, where it is that, rounded.

@@ -79,6 +79,11 @@ impl Lowering<'_> {
                 self.sum_of_points(left.expr, right.expr, b);
                 None
             }
+            // What is no temperature is not mended by making the other a difference.
+            _ if a.dimension != b.dimension && !left.value.zero => {
+                self.clash(left, right, &what);
+                None
+            }
             _ => {
                 self.point_fault(right.expr, b);
                 None

@@ -1,7 +1,8 @@
 //! What loggers write above the names of the columns: the instrument, its serial number, settings.
 
 /// The number of the line that names the columns where the first one does not, counted from 1: from it on all lines have as many
-/// fields, two at least, which the first line has not; it holds no number, and the next one does.
+/// fields, two at least, which the first line has not, or leaves empty at its end, as spreadsheets fill up a title; it holds no
+/// number, and the next one does.
 pub(super) fn names_below(text: &str) -> Option<usize> {
     /// Lines that are looked at.
     const MOST: usize = 200;
@@ -19,14 +20,24 @@ pub(super) fn names_below(text: &str) -> Option<usize> {
 fn names_by(separator: char, lines: &[(usize, &str)]) -> Option<usize> {
     let count = |line: &str| line.split(separator).count();
     let width = count(lines.last()?.1);
-    let others = lines.iter().rposition(|(_, line)| count(line) != width)?;
-    let [(names, head), (_, row), ..] = lines.get(others + 1..)? else {
-        return None;
+    let ends_filled = |line: &str| {
+        line.rsplit(separator)
+            .next()
+            .is_some_and(|f| !f.trim().is_empty())
     };
+    let is_whole = |line: &str| count(line) == width && ends_filled(line);
     let is_number = |field: &str| field.trim().replace(',', ".").parse::<f64>().is_ok();
     let has_number = |line: &str| line.split(separator).any(is_number);
-    let is_below = width >= 2 && count(lines[0].1) != width;
-    (is_below && !has_number(head) && has_number(row)).then_some(names + 1)
+    let is_head = |(_, line): &(usize, &str)| is_whole(line) && !has_number(line);
+    let at = lines
+        .iter()
+        .position(is_head)
+        .filter(|_| !is_whole(lines[0].1))?;
+    let [(names, _), (_, row), ..] = lines.get(at..)? else {
+        return None;
+    };
+    let is_table = lines[at..].iter().all(|(_, line)| count(line) == width);
+    (width >= 2 && is_table && has_number(row)).then_some(names + 1)
 }
 
 #[cfg(test)]
@@ -43,6 +54,13 @@ mod tests {
         );
         let commas = "Device, X, 2\na [s],b [V]\n1,2\n3,4\n";
         assert_eq!(names_below(commas), Some(2));
+        // As a spreadsheet saves a title.
+        assert_eq!(
+            names_below(&format!("Logger 12;\nSerial;\n;\n{rows}")),
+            Some(4)
+        );
+        let wide = "Logger;12;\na;b;c\n1;2;3\n4;5;\n";
+        assert_eq!(names_below(wide), Some(2));
         // Names in the first line, also above a line of units, and where a decimal comma makes two fields of one.
         for table in [
             rows,

@@ -521,7 +521,7 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         fault.help(say!("write it in one unit, as \"90 s\" for \"1 min 30 s\""))
     } else if text.trim_start_matches(['+', '＋']).contains(['+', '＋']) {
         fault.help(say!(
-            "write the one amount that the sum gives here; parts of an accuracy specification are specification = {{ reading = \"…\", fixed = \"…\" }}, other reasons for doubt entries of `components`"
+            "write the one amount that the sum gives here; U = a + b·L of a certificate is certificate = {{ U = \"a\", reading = \"b\", k = 2 }}, parts of an accuracy specification are specification = {{ reading = \"…\", fixed = \"…\" }}, other reasons for doubt entries of `components`"
         ))
     } else if text.contains(['/', '*', '×', '·', '⋅', '^', '(']) {
         fault.help(match quotient(text) {

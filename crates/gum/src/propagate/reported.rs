@@ -7,6 +7,7 @@
 //! | likewise, but y and k·u are all that the guide claims ([`Confirmation::Moments`]), and y and u agree within δ | the GUM result |
 //! | likewise, and they agree once what has few degrees of freedom has its u as standard deviation | the GUM result |
 //! | likewise, and they do not agree | y and u of Monte Carlo, with the k of the guide where it is fixed |
+//! | clause 8 leaves the interval open, y and k·u are all that the guide claims, and y or u differ by more than δ | as above |
 //! | a measurand that is not negative (ISO 11929) | y and u of the GUM, the interval of the standard |
 
 use super::result::{
@@ -113,6 +114,9 @@ pub enum Reason {
     NotValidated,
     /// Likewise; u of Monte Carlo is that with the standard deviation s/√n for means of few readings.
     NotValidatedFewReadings,
+    /// Clause 8 leaves the interval open, but y and u are all that is claimed, and one of them differs by more than δ beyond
+    /// what the trials scatter.
+    MomentsDiffer,
     /// ISO 11929 has an interval of its own.
     NotNegative,
 }
@@ -193,7 +197,9 @@ impl MeasurandResult {
             (Reason::NotValidatedFewReadings, Some(found), Some(moments)) => {
                 self.by_moments(moments, found, conventions)
             }
-            (Reason::NotValidated, Some(found), _) => self.by_monte_carlo(found, conventions),
+            (Reason::NotValidated | Reason::MomentsDiffer, Some(found), _) => {
+                self.by_monte_carlo(reason, found, conventions)
+            }
             _ => self.by_gum(reason, conventions),
         }
     }
@@ -206,14 +212,27 @@ impl MeasurandResult {
         let delta = clause_8.delta;
         match clause_8.verdict {
             Clause8::Validated => Reason::Validated,
-            Clause8::Undecided => Reason::Undecided,
+            Clause8::Undecided => match conventions.claims_moments() {
+                true if validation::refutes_moments(&self.gum, mc, delta) => {
+                    self.beside_few_readings(delta, [Reason::Undecided, Reason::MomentsDiffer])
+                }
+                _ => Reason::Undecided,
+            },
             Clause8::NotValidated if !conventions.claims_moments() => Reason::NotValidated,
             Clause8::NotValidated if confirms(mc, &self.gum, delta) => Reason::MomentsAgree,
-            Clause8::NotValidated => match &self.with_normal_readings {
-                Some(moments) if moments.confirm(&self.gum, delta) => Reason::FewReadings,
-                Some(_) => Reason::NotValidatedFewReadings,
-                None => Reason::NotValidated,
-            },
+            Clause8::NotValidated => {
+                self.beside_few_readings(delta, [Reason::FewReadings, Reason::NotValidated])
+            }
+        }
+    }
+
+    /// What follows where y or u differ: the first reason where they agree once what has few degrees of freedom has its u as
+    /// standard deviation, the second where that was not tried.
+    fn beside_few_readings(&self, delta: f64, [agree, otherwise]: [Reason; 2]) -> Reason {
+        match &self.with_normal_readings {
+            Some(moments) if moments.confirm(&self.gum, delta) => agree,
+            Some(_) => Reason::NotValidatedFewReadings,
+            None => otherwise,
         }
     }
 
@@ -246,7 +265,12 @@ impl MeasurandResult {
         }
     }
 
-    fn by_monte_carlo(&self, found: &MonteCarlo, conventions: &Conventions) -> Reported {
+    fn by_monte_carlo(
+        &self,
+        reason: Reason,
+        found: &MonteCarlo,
+        conventions: &Conventions,
+    ) -> Reported {
         let half = found
             .half_width(conventions.digits)
             .filter(|half| *half > 0.0);
@@ -262,7 +286,7 @@ impl MeasurandResult {
         };
         Reported {
             basis: Basis::MonteCarlo,
-            reason: Reason::NotValidated,
+            reason,
             estimate: found.centre(),
             u: found.u,
             dof: None,
@@ -286,14 +310,13 @@ impl MeasurandResult {
         let k = self.gum.coverage.k;
         let expanded = k * moments.u;
         Reported {
-            reason: Reason::NotValidatedFewReadings,
             estimate: moments.estimate,
             u: Some(moments.u),
             dof: self.gum.coverage.dof(),
             freedom: self.freedom(conventions),
             uncertainty: ReportedUncertainty::Multiple { k, expanded },
             probability: unclaimed(conventions),
-            ..self.by_monte_carlo(found, conventions)
+            ..self.by_monte_carlo(Reason::NotValidatedFewReadings, found, conventions)
         }
     }
 
@@ -311,10 +334,11 @@ impl MeasurandResult {
         }
     }
 
-    /// Whether y and u are all that is claimed, clause 8 refutes the interval, and they do not agree: then means of
-    /// few readings may be why.
+    /// Whether y and u are all that is claimed, and they do not agree: then means of few readings may be why.
     pub(super) fn asks_for_normal_readings(&self, conventions: &Conventions) -> bool {
-        conventions.claims_moments() && self.reason(conventions) == Reason::NotValidated
+        let reason = self.reason(conventions);
+        conventions.claims_moments()
+            && matches!(reason, Reason::NotValidated | Reason::MomentsDiffer)
     }
 }
 
@@ -347,7 +371,7 @@ fn interval(found: &MonteCarlo, digits: u8) -> ReportedUncertainty {
 impl MonteCarlo {
     /// U such that estimate ± U is the probabilistically symmetric interval: half its width, where
     /// both sides of the estimate are equally long within the numerical tolerance δ at these digits
-    /// of u, or within 2 %. `None` for a lopsided interval. Where the moments do not exist, the median
+    /// of u, within 2 %, or within what the ends scatter from run to run. `None` for a lopsided interval. Where the moments do not exist, the median
     /// is the estimate.
     pub fn half_width(&self, digits: u8) -> Option<f64> {
         let estimate = self.centre();
@@ -356,7 +380,16 @@ impl MonteCarlo {
         let u = self.u.unwrap_or(half / 2.0);
         let difference = ((high - estimate) - (estimate - low)).abs();
         let tolerated = numerical_tolerance(u, digits).max(LOPSIDED * half);
-        (difference <= tolerated).then_some(half)
+        (difference <= tolerated.max(self.noise_of_ends())).then_some(half)
+    }
+
+    /// By how much a sum or a difference of the ends scatters at most: three standard errors; zero where they are not known.
+    fn noise_of_ends(&self) -> f64 {
+        let [_, _, low, high] = self.standard_errors;
+        match low.is_finite() && high.is_finite() {
+            true => 3.0 * libm::hypot(low, high),
+            false => 0.0,
+        }
     }
 
     /// The estimate, or the median where the distribution has no mean.
@@ -368,12 +401,8 @@ impl MonteCarlo {
     /// the symmetric one by more than 1 %, beyond the noise of both.
     pub(super) fn is_asymmetric(&self, digits: u8) -> bool {
         let width = |[low, high]: [f64; 2]| high - low;
-        let [_, _, low, high] = self.standard_errors;
-        // Three standard errors of either end.
-        let noise = match low.is_finite() && high.is_finite() {
-            true => 6.0 * libm::hypot(low, high),
-            false => 0.0,
-        };
+        // Two widths, of two ends each.
+        let noise = 2.0 * self.noise_of_ends();
         let symmetric = width(self.symmetric);
         self.half_width(digits).is_none()
             && symmetric - width(self.shortest) > noise.max(SHORTER * symmetric)
@@ -518,6 +547,20 @@ mod tests {
         assert_eq!(of(Clause8::NotValidated, 1.06, FIXED), Reason::NotValidated);
     }
 
+    /// δ = 0.05 and an error of the trials of 0.01: 1.06 is not known to differ from 1, 1.08 is, for those who claim u.
+    #[test]
+    fn an_interval_that_is_left_open_does_not_save_a_wrong_u() {
+        let of = |u, rule| {
+            let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.01);
+            result(Clause8::Undecided, u, mc).reported(&conventions(rule))
+        };
+        assert_eq!(of(1.06, FIXED).reason, Reason::Undecided);
+        assert_eq!(of(1.08, OUTPUT).reason, Reason::Undecided);
+        let differs = of(1.08, FIXED);
+        assert_eq!(differs.reason, Reason::MomentsDiffer);
+        assert_eq!((differs.u, differs.expanded()), (Some(1.0), Some(2.0)));
+    }
+
     #[test]
     fn few_readings_leave_a_multiple_of_u_as_it_is() {
         let without_u = MonteCarlo {
@@ -585,6 +628,12 @@ mod tests {
         assert_eq!(of([-2.0, 2.0]), Some(2.0));
         assert_eq!(of([-1.98, 2.02]), Some(2.0));
         assert_eq!(of([-1.9, 2.1]), None);
+        // Three standard errors of the sum of the ends: 3·√2·0.05 = 0.21.
+        let scattered = |symmetric| monte_carlo(symmetric, symmetric, 0.05).half_width(2);
+        assert_eq!(
+            (scattered([-1.9, 2.1]), scattered([-1.88, 2.1])),
+            (Some(2.0), None)
+        );
         let without_moments = MonteCarlo {
             estimate: None,
             u: None,

@@ -95,7 +95,26 @@ pub(crate) fn validate(gum: &Gum, mc: &MonteCarlo) -> [Validation; 2] {
     })
 }
 
-/// The verdict about one end.
+/// Whether y or u of the GUM differ from those of Monte Carlo by more than δ, beyond what trials scatter.
+pub(crate) fn refutes_moments(gum: &Gum, mc: &MonteCarlo, delta: f64) -> bool {
+    let [of_estimate, of_u, ..] = mc.standard_errors;
+    let pairs = [
+        (mc.estimate, gum.estimate, of_estimate),
+        (mc.u, gum.u, of_u),
+    ];
+    pairs.into_iter().any(|(found, figure, error)| {
+        let difference = found.map(|found| (found - figure).abs());
+        // An error that is not known refutes nothing.
+        let error = if error.is_finite() {
+            error
+        } else {
+            f64::INFINITY
+        };
+        difference.is_some_and(|d| end(d, error, delta) == Clause8::NotValidated)
+    })
+}
+
+/// The verdict about one figure, as an end of an interval.
 fn end(difference: f64, error: f64, delta: f64) -> Clause8 {
     let doubt = ERRORS * error;
     if difference + doubt <= delta {

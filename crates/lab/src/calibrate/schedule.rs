@@ -11,7 +11,7 @@ use crate::experiment::names::Names;
 use crate::experiment::source::entries;
 use crate::recording::{Heading, Labels};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Cell;
 use gumption_format::toml::Stated;
 
@@ -81,6 +81,13 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
     points.names = PointNames::Words((1..=count).map(name).collect());
     for (role, place) in &names.columns {
         if points.column(role).is_none() {
+            let of_points = points.columns.iter().map(|column| column.name.as_str());
+            let unused =
+                of_points.filter(|name| names.columns.iter().all(|(role, _)| role != name));
+            let help = match nearest(role, unused) {
+                Some(near) => say!("did you mean \"{role}\" where it has \"{near}\"?"),
+                None => say!("add \"{role} [unit]\" = […] with one value for each point"),
+            };
             checker.faults.push(
                 Fault::new(
                     SCHEDULE,
@@ -89,9 +96,7 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
                 )
                 .label(say!("the schedule"))
                 .related(place.clone(), say!("needed here"))
-                .help(say!(
-                    "add \"{role} [unit]\" = […] with one value for each point"
-                )),
+                .help(help),
             );
         }
     }

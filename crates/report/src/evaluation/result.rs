@@ -71,7 +71,7 @@ record! {
         estimate: Number,
         /// Standard uncertainty; null where the distribution has none.
         standard_uncertainty: Option<Number>,
-        /// Why this method: not-checked, validated, undecided, moments-agree, few-readings, not-validated, not-validated-few-readings, not-negative.
+        /// Why this method: not-checked, validated, undecided, moments-agree, few-readings, not-validated, not-validated-few-readings, moments-differ, not-negative.
         reason: &'static str,
         /// Coverage factor, where U is a multiple of u.
         coverage_factor: Option<Number>,
@@ -217,6 +217,7 @@ fn reported(of: &Reported) -> ReportedJson {
             Reason::FewReadings => "few-readings",
             Reason::NotValidated => "not-validated",
             Reason::NotValidatedFewReadings => "not-validated-few-readings",
+            Reason::MomentsDiffer => "moments-differ",
             Reason::NotNegative => "not-negative",
         },
         coverage_factor: of.coverage_factor().map(Number),

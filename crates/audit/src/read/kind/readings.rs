@@ -85,7 +85,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let n = count(text, e);
     // `repeatability of 5`: how many they were, beside another figure that was used.
     let is_count = |s: &Printed| {
-        let used = e.used.filter(|used| used.value != s.value);
+        let used = e.used.or(e.u).filter(|used| used.value != s.value);
         s.unit.is_empty() && Some(s.value) == n && used.is_some()
     };
     let named = e.figure(KEYS).filter(|s| !is_count(s));

@@ -53,6 +53,7 @@ pub(super) fn read(
         open: None,
         behind_factor: None,
         is_relative: false,
+        is_report: false,
         found: false,
     };
     for position in order(&cells, &surroundings.measurand) {
@@ -85,7 +86,8 @@ fn order(cells: &[(usize, String)], measurand: &str) -> Vec<usize> {
     let is_figure = |position: &usize| Printed::parse(&cells[*position].1).is_some();
     let is_of_whole = |text: &str| {
         let whole = footer::label(text, measurand);
-        matches!(whole, Some(Whole::Combined | Whole::Expanded)) && !text.contains('=')
+        let is_open = !footer::without_condition(text).contains('=');
+        matches!(whole, Some(Whole::Combined | Whole::Expanded)) && is_open
     };
     let mut order: Vec<usize> = (0..cells.len()).collect();
     let figures = order.iter().filter(|position| is_figure(position)).count();
@@ -209,6 +211,8 @@ struct Reading<'a> {
     /// What a label called before that of the factor came.
     behind_factor: Option<(Whole, String)>,
     is_relative: bool,
+    /// Whether the last label calls what is reported, in the place of a figure that the sheet computes above it.
+    is_report: bool,
     found: bool,
 }
 
@@ -235,6 +239,10 @@ impl Reading<'_> {
                 self.label(Whole::Combined, place, text);
             }
             Some(whole) => self.label(whole, place, text),
+            // `Expanded | 0.184` above `Reported | 0.19`
+            None if footer::is_report(text) && self.claimed.footer.expanded.is_some() => {
+                self.label(Whole::Expanded, place, text);
+            }
             // `k | p = 95 %, t-distribution | 2.03`
             None if self.is_open(Whole::Factor) => coverage::rule_of_label(text, self.claimed),
             None => {}
@@ -266,6 +274,7 @@ impl Reading<'_> {
 
     fn label(&mut self, whole: Whole, place: Place, text: &str) {
         self.is_relative = footer::is_relative(text);
+        self.is_report = footer::is_report(text);
         let at_point = conditions::without_point(text);
         // The point is an amount of which a relative figure may be a part.
         if at_point != text {
@@ -371,7 +380,12 @@ impl Reading<'_> {
 
     fn take(&mut self, whole: Whole, figure: Printed, text: &str) {
         let place = figure.at;
-        if footer::set(&mut self.claimed.footer, whole, figure) {
+        let footer = &mut self.claimed.footer;
+        let is_taken = match whole {
+            Whole::Expanded if self.is_report => footer::set_reported(footer, figure),
+            _ => footer::set(footer, whole, figure),
+        };
+        if is_taken {
             understood(self.claimed, place, text, whole);
             self.found = true;
         }

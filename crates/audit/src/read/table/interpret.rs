@@ -43,6 +43,14 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         if let Some(u) = row.u.clone().filter(is_made) {
             (row.stated, row.relative) = (Stated::Standard { u, dof: None }, Relative::No);
         }
+        // A plain number in a column that calls u relative is a ratio.
+        if let Some(u) = row
+            .u
+            .as_mut()
+            .filter(|u| raw.has_relative_u && u.unit.is_empty())
+        {
+            u.unit = "1".into();
+        }
         row.unread_used = row.unread_used.take().filter(|cell| row.is_unread(cell));
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }

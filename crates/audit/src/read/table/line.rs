@@ -52,6 +52,7 @@ impl<'a> Line<'a> {
             number: self.text(Role::Number),
             stated_apart: false,
             relative: self.derived(footer::is_relative),
+            has_relative_u: head(Role::U).is_some_and(footer::is_relative),
             is_root: false,
             row: Row {
                 at: self.place(self.grid.filled(self.row).next().map_or(0, |(i, _)| i)),

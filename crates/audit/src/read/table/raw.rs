@@ -19,6 +19,8 @@ pub struct Raw {
     pub(super) stated_apart: bool,
     /// u/x, where a column beside u has it.
     pub(super) relative: Option<Printed>,
+    /// Whether the head of the column of u says that it is relative.
+    pub(super) has_relative_u: bool,
     /// Whether rows below it are its parts, of which its u is the root of the sum of squares.
     pub(super) is_root: bool,
 }
@@ -35,6 +37,7 @@ impl Raw {
             number: String::new(),
             stated_apart: true,
             relative: None,
+            has_relative_u: false,
             is_root: false,
         }
     }

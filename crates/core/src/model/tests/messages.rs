@@ -90,6 +90,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("value_in(L, 'mm') / value_in(t, 's')", "mm/s", "M0405", "value_in(L, 'mm') / value_in(t, 's')", "multiplied by `1 'mm/s'`"),
     ("exp(-t / a)", "", "M0402", "-t / a", "`a` has no unit; if it was forgotten, state it where it has its value (`unit = \"s\"` would fit)"),
     ("Q + 5", "C", "M0401", "5", "`C` is the coulomb"),
+    ("Q - 23 '°C'", "K", "M0401", "23 '°C'", "`C` is the coulomb (charge); degrees Celsius are `°C`"),
     ("1 + Q / (1 'K')", "", "M0401", "Q / (1 'K')", "`C` is the coulomb"),
     ("1 'K' / a", "°C", "M0404", "1 'K' / a", "`0 '°C' + (1 'K' / a - 273.15 'K')`"),
     ("sin(L)", "", "M0402", "L", "value_in(L, 'mm')"),

@@ -8,7 +8,7 @@ use super::entries::entries;
 use super::units;
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
 use crate::budget::tables::{ComponentTable, FileTable};
-use gumption_core::quantity::{Unit, per_coulomb, revolutions_as_angle};
+use gumption_core::quantity::{Unit, hint_for_clash, per_coulomb, revolutions_as_angle};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::{Slot, Stated};
@@ -508,7 +508,9 @@ fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault
         ),
     )
     .label(say!("expected a unit like {}", unit.symbol));
-    if unit.is_one() {
+    if let Some(hint) = hint_for_clash(unit, own) {
+        fault.help(hint)
+    } else if unit.is_one() {
         fault.help(say!(
             "add the missing unit to {owner}: unit = \"{}\"",
             own.symbol

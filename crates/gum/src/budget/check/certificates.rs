@@ -26,7 +26,10 @@ impl Checker<'_> {
         if certificate.value.refused {
             return None;
         }
-        let u_capital = self.positive_deviation(expanded, "U", context, table.share())?;
+        let constant = self.positive_deviation(expanded, "U", context, table.share())?;
+        let share = certificate.value.reading.as_deref();
+        let u_capital = constant + self.of_value(share, context)?;
+        self.remark_on_nothing(share, context);
         if let (Some(inner), Some(outer)) = (&certificate.value.dof, &table.dof) {
             return self.refuse(
                 Fault::new(

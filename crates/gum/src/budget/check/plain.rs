@@ -73,7 +73,10 @@ impl Plain {
             }
             Way::Certificate => {
                 let stated = &table.certificate.as_ref()?.value;
-                let more = stated.refused || stated.p.is_some() || stated.dof.is_some();
+                let more = stated.refused
+                    || stated.p.is_some()
+                    || stated.dof.is_some()
+                    || stated.reading.is_some();
                 let k = stated
                     .k
                     .as_ref()

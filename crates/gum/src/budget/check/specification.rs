@@ -52,10 +52,7 @@ impl Checker<'_> {
                 );
             }
         }
-        let reading = match &table.reading {
-            Some(part) => self.part(part, "reading", context.value().map(f64::abs), context)?,
-            None => 0.0,
-        };
+        let reading = self.of_value(table.reading.as_deref(), context)?;
         let range = match (&table.range, &table.span) {
             (Some(part), Some(span)) => {
                 let span = self.positive_deviation(span, "span", context, Share::Unsaid)?;
@@ -76,7 +73,7 @@ impl Checker<'_> {
         };
         let a = reading + range + counts + fixed;
         if a > 0.0 {
-            self.of_nothing(table, context);
+            self.remark_on_nothing(table.reading.as_deref(), context);
             return Some(a);
         }
         self.refuse(
@@ -92,9 +89,25 @@ impl Checker<'_> {
         )
     }
 
-    /// Whoever states a specification of a correction, whose value is zero, means a part of another quantity.
-    fn of_nothing(&mut self, table: &SpecificationTable, context: &Context<'_>) {
-        let of_reading = table.reading.as_ref().map(|part| &part.value);
+    /// The part `reading`, a share of the value; zero where it is not stated.
+    pub(super) fn of_value(
+        &mut self,
+        share: Option<&Stated<Amount>>,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        match share {
+            Some(share) => self.part(share, "reading", context.value().map(f64::abs), context),
+            None => Some(0.0),
+        }
+    }
+
+    /// Whoever states a share of the value of a correction, whose value is zero, means a part of another quantity.
+    pub(super) fn remark_on_nothing(
+        &mut self,
+        share: Option<&Stated<Amount>>,
+        context: &Context<'_>,
+    ) {
+        let of_reading = share.map(|part| &part.value);
         let Some(part) =
             of_reading.filter(|part| part.number != 0.0 && context.value() == Some(0.0))
         else {

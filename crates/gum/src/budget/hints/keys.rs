@@ -324,7 +324,7 @@ fn has_limits(name: &str) -> bool {
 fn beside(key: &str, table: &str) -> Option<Said> {
     if (key, table) == ("k", "specification") {
         return Some(say!(
-            "the parts of a specification are limits: where it states a level of confidence, p = 0.95 stands beside it; a U with its k is a certificate"
+            "the parts of a specification are limits: where it states a level of confidence, p = 0.95 stands beside it; a U with its k is a certificate, U = a + b·L with k = 2 certificate = {{ U = \"a\", reading = \"b\", k = 2 }}"
         ));
     }
     let beside = ["specification", "certificate"].contains(&table)

@@ -8,9 +8,10 @@ use toml::de::{DeArray, DeString, DeTable, DeValue};
 use crate::budget::cell::Entry;
 use crate::budget::check::states_uncertainty;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
+use crate::budget::tables::InputTable;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::csv;
-use gumption_format::toml::{Raw, Stated, amount_for_date, amount_parts};
+use gumption_format::toml::{Raw, Stated, Table, amount_for_date, amount_parts};
 
 /// The key of the reasons for doubt of an input.
 pub(super) const COMPONENTS: &str = "components";
@@ -187,6 +188,9 @@ fn set_in_table<'t>(
     let (first, further) = key.split_first().expect("a path is never empty");
     let further: Vec<String> = further.iter().chain(rest).cloned().collect();
     if !table.contains_key(first.as_str()) {
+        if !further.is_empty() {
+            is_no_component(table, first, name)?;
+        }
         let place = name.span.clone();
         let key: Spanned<DeString<'t>> = Spanned::new(place.clone(), first.clone().into());
         table.insert(key, Spanned::new(place, DeValue::Table(DeTable::new())));
@@ -211,6 +215,31 @@ fn named_component(table: &DeTable<'_>, key: &str) -> Vec<String> {
     };
     let prefix = listed.then(|| COMPONENTS.to_string());
     prefix.into_iter().chain([key.to_string()]).collect()
+}
+
+/// What leads through the list of components, and is the name of none, nor a key that an input has without them.
+fn is_no_component(table: &DeTable<'_>, key: &str, column: &Stated<String>) -> Result<(), Said> {
+    let Some(DeValue::Array(list)) = table.get(COMPONENTS).map(Spanned::get_ref) else {
+        return Ok(());
+    };
+    if InputTable::keys().contains(&key) {
+        return Ok(());
+    }
+    let names = list.iter().filter_map(|entry| {
+        let name = entry.get_ref().as_table()?.get("name")?.get_ref();
+        name.as_str()
+    });
+    let names: Vec<&str> = names.collect();
+    let column = &column.value;
+    Err(match names.is_empty() {
+        true => say!(
+            "there is no component `{key}` for the column \"{column}\": the components have no names"
+        ),
+        false => say!(
+            "there is no component `{key}` for the column \"{column}\": the components are called {}",
+            names.join(", ")
+        ),
+    })
 }
 
 fn is_called(entry: &Raw<'_>, name: &str) -> bool {
@@ -362,6 +391,20 @@ components = [{ name = "scatter", readings = [1, 2, 3], pooled = { s = 0.5, dof 
         let columns = r#""X.cal.certificate.U", "X.components.2.certificate.U""#;
         let twice = read_with(columns, "[0.4, 0.5]").expect_err("two columns");
         assert!(twice.contains("two columns set the same"), "{twice}");
+    }
+
+    #[test]
+    fn a_misspelt_component_is_answered_with_those_there_are() {
+        let of = |column| read_with(column, "[0.4]").expect_err("no such component");
+        let refused = of(r#""X.call.certificate.U""#);
+        assert!(
+            refused.contains("the components are called cal"),
+            "{refused}"
+        );
+        // A key that an input has, and a component that is there.
+        let key = of(r#""X.certificate.U""#);
+        assert!(!key.contains("no component"), "{key}");
+        assert!(read_with(r#""X.cal.certificate.U""#, "[0.4]").is_ok());
     }
 
     /// Every part of a path is a call inside another.

@@ -179,6 +179,8 @@ table! {
         point: String,
         /// Expanded uncertainty U.
         U: Amount,
+        /// With `U`: a share of the value that is added to it: `"0.4 ppm"` of U = 30 nm + 0.4·10⁻⁶·L.
+        reading: Amount,
         /// Coverage factor k.
         k: f64,
         /// Coverage probability p, in place of k.

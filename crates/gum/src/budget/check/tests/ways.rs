@@ -127,6 +127,25 @@ fn certificates_with_k_or_p() {
     }
 }
 
+/// U = 30 nm + 0.4·10⁻⁶·L with k = 2, of gauge blocks of 100 mm: 70 nm.
+#[test]
+fn a_certificate_may_grow_with_the_value() {
+    let grows = "unit = \"mm\"\ncertificate = { U = \"30 nm\", reading = \"0.4 ppm\", k = 2 }";
+    close(component(&format!("value = 100\n{grows}")).0, 35e-6);
+    let of = |value: f64| {
+        let text = format!(
+            "[measurand.Y]\nmodel = \"X\"\nunit = \"mm\"\n[input.X]\nvalue = {value}\n{grows}\n"
+        );
+        budget(&text).remarks.len()
+    };
+    assert_eq!([of(0.0), of(100.0)], [1, 0]);
+    let without_unit = grows.replace("\"0.4 ppm\"", "4e-7");
+    assert_eq!(
+        faults(&one(&format!("value = 100\n{without_unit}")))[0].0,
+        "B0112"
+    );
+}
+
 #[test]
 fn specification_resolution_and_bits() {
     let text = "value = -5\nspecification = { reading = \"0.002 %\", range = \"6 ppm\", span = 10, counts = 3, step = 1e-5 }";

@@ -149,6 +149,16 @@ impl Printed {
         }
     }
 
+    /// The same of an expanded uncertainty, of which two digits are printed: the zeros behind them may be none, `2300`, the second digit
+    /// is one, `10` and `4000`.
+    pub(crate) fn half_of_expanded(&self) -> f64 {
+        let places = libm::floor(libm::log10(self.value.abs().max(1.0))) - 1.0;
+        match self.half >= 0.5 && places > 0.0 {
+            true => self.half_of_digits().min(0.5 * libm::exp10(places)),
+            false => self.half,
+        }
+    }
+
     /// Whether it is printed with more than two digits, and not with all that a cell holds. What a cell computes, it cannot show
     /// with fewer than its whole number has.
     pub fn is_long(&self) -> bool {
@@ -162,8 +172,8 @@ impl Printed {
     pub(crate) fn half_that_decides(&self) -> f64 {
         let third = 0.5 * libm::exp10(libm::floor(libm::log10(self.value.abs())) - 2.0);
         match self.is_long() || self.digits > 8 {
-            true => self.half_of_digits().max(third),
-            false => self.half_of_digits(),
+            true => self.half_of_expanded().max(third),
+            false => self.half_of_expanded(),
         }
     }
 

@@ -209,7 +209,7 @@ fn as_stated(claimed: &Claimed) -> Option<f64> {
         .as_ref()
         .filter(|k| k.value > 1.0 && k.value < 5.0)?;
     let (expanded, u_c) = footer.expanded.as_ref().zip(footer.u_c.as_ref())?;
-    let open = 2.0 * expanded.half_of_digits() + k.value * u_c.half_of_digits();
+    let open = 2.0 * expanded.half_of_expanded() + k.value * u_c.half_of_digits();
     let is_product = (expanded.value - k.value * u_c.value).abs() <= open;
     let is_few = |row: &Row| {
         let stated = row.stated.standard().map(|(_, dof)| dof);

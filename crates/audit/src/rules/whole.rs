@@ -60,7 +60,7 @@ pub(super) fn product(seen: &Seen<'_>) -> Vec<Hit> {
     let product = u_c.value * k.value;
     let floor = seen.claimed.cmc.as_ref().map_or(0.0, |cmc| cmc.value);
     // U may be rounded up.
-    let open = 2.0 * expanded.half_of_digits() + u_c.half_of_digits() * k.value;
+    let open = 2.0 * expanded.half_of_expanded() + u_c.half_of_digits() * k.value;
     when(!expanded.is_met_within(product.max(floor), open), || {
         format!("U = {}, k·u_c = {product:.4}", expanded.as_read())
     })

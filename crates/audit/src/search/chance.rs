@@ -127,7 +127,7 @@ impl Chance {
                 None => (figures.expanded, expanded.value),
             };
             let of_u_c = whole.map_or(0.0, Printed::relative_half);
-            let half = expanded.half_of_digits() / expanded.value;
+            let half = expanded.half_of_expanded() / expanded.value;
             let up = match case.claimed.rounding {
                 RoundingStated::Nearest => half,
                 RoundingStated::Up | RoundingStated::Unstated => 2.0 * half,

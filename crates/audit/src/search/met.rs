@@ -87,13 +87,7 @@ pub(super) fn factor(figure: &Printed, k: f64, is_fixed: bool) -> bool {
 
 /// Whether `x` is rounded to the figure by the rule of the sheet.
 pub(super) fn is_rounded(figure: &Printed, x: f64, rule: RoundingStated, down: bool) -> bool {
-    // The digits of a whole number may have zeros behind them, which are none: 2300, 6640. Of one digit the second is a zero.
-    let places = libm::floor(libm::log10(figure.value.max(1.0))) - 1.0;
-    let half = if figure.half >= 0.5 && places > 0.0 {
-        figure.half_of_digits().min(0.5 * libm::exp10(places))
-    } else {
-        figure.half
-    };
+    let half = figure.half_of_expanded();
     let tolerance = 1e-6 * half + 1e-9 * x.abs();
     let above = figure.value - x;
     let nearest = above.abs() <= half + tolerance;

@@ -187,7 +187,7 @@ fn follows_from_sum(case: &Case<'_>) -> bool {
     let k = k.unwrap_or_else(|| case.right.figures(&[], None).k);
     let both = footer.u_c.as_ref().zip(footer.expanded.as_ref());
     both.is_some_and(|(u_c, expanded)| {
-        let open = expanded.half_of_digits() + k * u_c.half_of_digits();
+        let open = expanded.half_of_expanded() + k * u_c.half_of_digits();
         expanded.is_met_within(k * u_c.value, open)
     })
 }

@@ -68,7 +68,7 @@ fn other_multiple(case: &Case<'_>) -> Option<f64> {
         _ => return None,
     };
     let open =
-        expanded.half_of_digits() / u_c.value + expanded.value / u_c.value * u_c.relative_half();
+        expanded.half_of_expanded() / u_c.value + expanded.value / u_c.value * u_c.relative_half();
     let is_apart = |k: &f64| (expanded.value / u_c.value - k).abs() <= open;
     let mut others = [2.0, 3.0].into_iter();
     others.find(|k| libm::round(stated) != *k && is_apart(k))

@@ -80,18 +80,23 @@ pub(super) fn read(
     reading.found || labels::across(grid, sheet, row, claimed)
 }
 
-/// The order in which the cells of a row say what they say: a label may stand behind the only figure, in the column of the names
-/// of the sources: `0.295 |  | u_c`.
+/// The order in which the cells of a row say what they say: a label may stand behind its figures, in the column of the names of the
+/// sources: `0.295 |  | u_c`.
 fn order(cells: &[(usize, String)], measurand: &str) -> Vec<usize> {
     let is_figure = |position: &usize| Printed::parse(&cells[*position].1).is_some();
     let is_of_whole = |text: &str| {
         let whole = footer::label(text, measurand);
         let is_open = !footer::without_condition(text).contains('=');
-        matches!(whole, Some(Whole::Combined | Whole::Expanded)) && is_open
+        whole.is_some_and(|whole| whole != Whole::Y) && is_open
     };
     let mut order: Vec<usize> = (0..cells.len()).collect();
-    let figures = order.iter().filter(|position| is_figure(position)).count();
-    if figures == 1 && is_figure(&0) && is_of_whole(&cells[1].1) {
+    let (last, front) = (cells.len() - 1, 0..cells.len() - 1);
+    if is_of_whole(&cells[last].1) && front.clone().all(|position| is_figure(&position)) {
+        order.rotate_right(1);
+    } else if is_figure(&0)
+        && is_of_whole(&cells[1].1)
+        && !(2..cells.len()).any(|position| is_figure(&position))
+    {
         order.swap(0, 1);
     }
     order

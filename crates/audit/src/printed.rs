@@ -124,6 +124,18 @@ impl Printed {
         self
     }
 
+    /// By what it divides: itself, or the reciprocal of what is below one and multiplies, `0.577` for √3.
+    pub(crate) fn as_divisor(self) -> Printed {
+        match self.value > 0.0 && self.value < 1.0 {
+            true => Printed {
+                value: 1.0 / self.value,
+                half: self.half / (self.value * self.value),
+                ..self
+            },
+            false => self,
+        }
+    }
+
     /// Whether `x`, rounded to nearest, may be printed like this.
     pub fn is_met_by(&self, x: f64) -> bool {
         self.is_met_within(x, self.half)

@@ -152,7 +152,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子"]),
     (Role::Divisor, How::Has, FACTOR),
     (Role::Divisor, How::Is, FACTOR_ALONE),
-    (Role::Divisor, How::Is, &["div", "div.", "因子", "b", "factor"]),
+    (Role::Divisor, How::Is, &["div", "div.", "因子", "b", "factor", "faktor", "facteur", "multiplier", "multiplikator"]),
     (Role::U, How::Has, &["standarduncertainty", "standardunsicherheit", "standardmessunsicherheit", "incertitude-type", "incertitudetype", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "std.-unsicherheit", "std.unsicherheit", "std-unsicherheit", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
     (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)", "w", "wi", "w(xi)", "urel", "ui,rel", "urel(xi)", "unsicherheitu", "unsicherheitui", "uncertaintyu", "uncertaintyui", "incertitudeu"]),
     (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::claim::{Claimed, Coverage, K_OF_RECTANGLE};
 use crate::printed::{Printed, leading};
+use crate::units;
 
 use super::conditions;
 use super::factor::is_factor;
@@ -244,9 +245,17 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
     };
     let lines = claimed.words.lines().filter(is_of_whole);
     let lines = lines.filter(|line| !is_of_other_k(line));
+    // `U = 63 %`: the uncertainty itself.
+    let expanded = claimed.footer.expanded.as_ref();
+    let relative = expanded.filter(|own| units::fraction(&own.unit).is_some());
+    let without_own = |line: &str| match relative {
+        Some(own) => line.replacen(&own.text, "", 1),
+        None => line.to_owned(),
+    };
     // `U at 50 % load`: a point, and no probability.
     let mut levels = lines.filter_map(|line| {
-        let at_point = conditions::without_point(line);
+        let own = without_own(line);
+        let at_point = conditions::without_point(&own);
         probability(&at_point.to_lowercase())
     });
     levels.next().filter(|level| !USUAL.contains(level))

@@ -66,6 +66,7 @@ pub(super) fn by_content(grid: &Grid, located: &mut Located) {
     for (column, (_, role)) in located.columns.iter_mut().zip(roles) {
         column.role = role;
     }
+    uncertainty_is_divided(grid, located);
     value_is_used(grid, located);
     u_is_used(grid, located);
     without_coefficient(grid, located);
@@ -111,6 +112,62 @@ impl Cells<'_> {
             && 2 * numbers.len() > self.rows.len()
             && numbers.windows(2).all(|two| two[1] == two[0] + 1)
     }
+}
+
+/// `Value | Divisor | Uncertainty`: what is called an uncertainty, and not which, is u where the divisor makes it of the figures of
+/// another column, which are what was put in.
+fn uncertainty_is_divided(grid: &Grid, located: &mut Located) {
+    let bare = located
+        .columns
+        .iter()
+        .find(|column| columns::is_bare_uncertainty(&column.head));
+    let (Some(divisor), Some(of), false) = (
+        at(located, Role::Divisor),
+        bare.map(|column| column.index),
+        located.has(Role::U),
+    ) else {
+        return;
+    };
+    let role = |index: usize| {
+        let mut columns = located.columns.iter();
+        columns.find(|column| column.index == index).map(|c| c.role)
+    };
+    let may_be_put_in = |index: &usize| {
+        let open = [Role::Value, Role::Used, Role::Derived, Role::Remark];
+        *index != of && role(*index).is_none_or(|role| open.contains(&role))
+    };
+    let made = Made {
+        of,
+        coefficient: None,
+    };
+    let is_divided = |index: &usize| {
+        let figure = |row: &usize, index: usize| grid.cell(*row, index).figure();
+        let changes = |row: &usize| {
+            let pair = figure(row, *index).zip(figure(row, of));
+            pair.is_some_and(|(a, u)| a.value != u.value)
+        };
+        made.comes_of(grid, located, *index, divisor) && located.rows.iter().any(changes)
+    };
+    let heads = grid.filled(located.head).map(|(index, _)| index);
+    let Some(used) = heads.filter(may_be_put_in).find(is_divided) else {
+        return;
+    };
+    let head = grid.cell(located.head, used).text.clone();
+    let unit = columns::apart(&head).1;
+    located.columns.retain(|column| column.index != used);
+    for column in &mut located.columns {
+        if column.index == of {
+            column.role = Role::U;
+        } else if column.role == Role::Used {
+            column.role = Role::Derived;
+        }
+    }
+    located.columns.push(Column {
+        index: used,
+        role: Role::Used,
+        head,
+        unit,
+    });
 }
 
 /// `Value` and a divisor that give u: the value is what was put in.
@@ -321,6 +378,25 @@ impl Made {
         Some((a * factor, made))
     }
 
+    /// Whether it comes of the figures of a column by the divisors of another.
+    fn comes_of(&self, grid: &Grid, located: &Located, index: usize, divisor: usize) -> bool {
+        let divides = |row: &&usize| {
+            let divisor = grid.cell(**row, divisor).figure().map(Printed::as_divisor);
+            let mut pairs = [
+                self.pair(grid, **row, index),
+                self.converted(grid, located, **row, index),
+            ]
+            .into_iter()
+            .flatten();
+            let is_u =
+                |(a, u): (f64, f64), divisor: &Printed| (a / divisor.value - u).abs() <= 0.05 * u;
+            divisor.is_some_and(|divisor| pairs.any(|pair| is_u(pair, &divisor)))
+        };
+        // An estimate that happens to do so is rare: half of the rows are enough, as one of two of which the other has a slip.
+        let count = located.rows.iter().filter(divides).count();
+        count > 0 && 2 * count >= located.rows.len()
+    }
+
     /// c·a of a row, and what was made of it, as far as their units allow to compare them.
     fn pair(&self, grid: &Grid, row: usize, index: usize) -> Option<(f64, f64)> {
         let figure = |index: usize| grid.cell(row, index).figure();
@@ -358,22 +434,6 @@ fn may_be_divided(grid: &Grid, located: &Located, index: usize) -> bool {
 
 /// Whether the figures of a column give those of u by the divisor, or those of the contribution by the coefficient, too.
 fn gives_u(grid: &Grid, located: &Located, index: usize) -> bool {
-    let (Some(divisor), Some(made)) = (at(located, Role::Divisor), Made::of(located)) else {
-        return false;
-    };
-    let divides = |row: &&usize| {
-        let divisor = grid.cell(**row, divisor).figure();
-        let mut pairs = [
-            made.pair(grid, **row, index),
-            made.converted(grid, located, **row, index),
-        ]
-        .into_iter()
-        .flatten();
-        let is_u =
-            |(a, u): (f64, f64), divisor: &Printed| (a / divisor.value - u).abs() <= 0.05 * u;
-        divisor.is_some_and(|divisor| pairs.any(|pair| is_u(pair, &divisor)))
-    };
-    // An estimate that happens to do so is rare: half of the rows are enough, as one of two of which the other has a slip.
-    let count = located.rows.iter().filter(divides).count();
-    count > 0 && 2 * count >= located.rows.len()
+    let pair = at(located, Role::Divisor).zip(Made::of(located));
+    pair.is_some_and(|(divisor, made)| made.comes_of(grid, located, index, divisor))
 }

@@ -129,6 +129,10 @@ impl<'a> Line<'a> {
     fn written(self, role: Role) -> Option<Printed> {
         let column = self.located.column(role)?;
         let figure = self.grid.cell(self.row, column.index).figure()?;
+        let figure = match role {
+            Role::Divisor => figure.as_divisor(),
+            _ => figure,
+        };
         Some(self.in_column(column, figure))
     }
 

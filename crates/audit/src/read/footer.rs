@@ -275,7 +275,17 @@ fn by_factor(text: &str) -> Option<Whole> {
     if let Some((k, name)) = conditions::multiple(text) {
         return is_bare(&name).then(|| of(k.value));
     }
+    // `Overall uncertainty, coverage factor 2`
     let name = without_condition(text).trim();
+    let in_words = || {
+        let lower = text.to_lowercase();
+        let name = lower.split_once("coverage factor")?.0;
+        let name = name.trim_end_matches([' ', ',', ';', ':', '(']);
+        is_bare(name).then(|| factor_of_label(text))?
+    };
+    if let Some(k) = in_words() {
+        return Some(of(k.value));
+    }
     let is_open = name.len() == text.trim().len() || !is_bare(name);
     let k = (!is_open).then(|| super::words::figure_after(text, &["k"]))??;
     (k.value == 1.0 || is_factor(k.value)).then(|| of(k.value))

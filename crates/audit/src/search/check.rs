@@ -127,6 +127,8 @@ struct Held<'a> {
     of_printed: Option<Figures>,
     /// What it gives with the coefficients that the laboratory rounded.
     of_coefficients: Option<Figures>,
+    /// What it gives with the divisors that the laboratory rounded, `1.73` for √3.
+    of_divisors: Option<Figures>,
     /// What it gives as the root of a sum of squares, where u_c is the sum itself, made of rounded contributions, or an old number: ν_eff
     /// may have been found from what was there before.
     of_root: Option<Figures>,
@@ -165,6 +167,7 @@ impl<'a> Held<'a> {
             exact,
             of_printed: any_printed.then(|| calculation.figures(printed, cmc)),
             of_coefficients: coefficients.map(|own| own.figures(&[], cmc)),
+            of_divisors: with_claimed_divisors(case, calculation).map(|own| own.figures(&[], cmc)),
             of_root: is_after.then(|| rooted().figures(&[], cmc)),
             u_c: u_c.map(|figure| unexchanged(figure, calculation, Printout::Combined)),
             coarse: coarseness(case, calculation),
@@ -191,7 +194,7 @@ impl<'a> Held<'a> {
 
     /// Everything that the calculation gives.
     fn all(&self) -> impl Iterator<Item = &Figures> {
-        let others = [&self.of_printed, &self.of_coefficients];
+        let others = [&self.of_printed, &self.of_coefficients, &self.of_divisors];
         iter::once(&self.exact).chain(others.into_iter().flatten())
     }
 
@@ -357,6 +360,22 @@ fn with_claimed_coefficients(case: &Case<'_>, calculation: &Calculation) -> Opti
         let claimed = row.c.as_ref().map(|c| c.value.abs());
         if let Some(c) = claimed.filter(|c| (c - line.c.abs()).abs() <= 0.01 * line.c.abs()) {
             line.c = c.copysign(line.c);
+        }
+    }
+    (own != *calculation).then_some(own)
+}
+
+/// The calculation with the divisors that the laboratory states, where they are those of the shapes, rounded.
+fn with_claimed_divisors(case: &Case<'_>, calculation: &Calculation) -> Option<Calculation> {
+    let mut own = calculation.clone();
+    for (line, row) in own.lines.iter_mut().zip(&case.claimed.rows) {
+        let Stated::Limits { shape, .. } = &row.stated else {
+            continue;
+        };
+        let exact = shape.divisor();
+        let is_rounded = |claimed: &&Printed| claimed.value != exact && claimed.is_met_by(exact);
+        if let Some(claimed) = row.divisor.as_ref().filter(is_rounded) {
+            line.u *= exact / claimed.value;
         }
     }
     (own != *calculation).then_some(own)

@@ -96,7 +96,8 @@ fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
     all
 }
 
-/// Figures with two different digits next to one another exchanged: which pair, and the figure.
+/// Figures with two different digits next to one another exchanged: which pair, and the figure. Who writes a figure does not begin it
+/// with a zero, `01` for `10`.
 pub(crate) fn exchanged_digits(text: &str) -> Vec<(usize, f64)> {
     let clean = crate::printed::clean(text);
     let digits: Vec<usize> = clean
@@ -108,7 +109,7 @@ pub(crate) fn exchanged_digits(text: &str) -> Vec<(usize, f64)> {
     let mut found = Vec::new();
     for (pair, two) in digits.windows(2).enumerate() {
         let (a, b) = (&clean[two[0]..=two[0]], &clean[two[1]..=two[1]]);
-        if a == b {
+        if a == b || pair == 0 && b == "0" {
             continue;
         }
         let mut swapped = clean.clone();

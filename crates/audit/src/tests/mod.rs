@@ -15,6 +15,7 @@ mod limits;
 mod named_figures;
 mod others;
 mod points;
+mod reported;
 mod reports;
 mod several;
 mod side_by_side;

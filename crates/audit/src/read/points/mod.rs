@@ -78,20 +78,22 @@ fn amount(text: &str) -> Option<(String, String)> {
     starts.map(|(at, _)| at).find_map(|at| {
         let (_, behind) = leading(&text[at..])?;
         let unit = behind.trim_start();
-        let end = unit.find([' ', ',', ')', '）', '(', '@', '/', '，', '处', '点']);
+        let end = unit.find([
+            ' ', ',', ')', '）', '(', '@', '/', '，', ':', '：', '处', '点',
+        ]);
         let end = end.unwrap_or(unit.len());
         // `m/s` has a stroke of its own.
         let whole = unit
-            .find([' ', ',', ')', '）', '(', '@', '，', '处', '点'])
+            .find([' ', ',', ')', '）', '(', '@', '，', ':', '：', '处', '点'])
             .unwrap_or(unit.len());
         let end = if is_unit(&unit[..whole]) { whole } else { end };
         // `10 %FS` is a point as `10 %` is.
         is_unit(alone(&unit[..end])).then(|| {
             let stop = text.len() - unit.len() + end;
             let (front, rest) = (&text[..at], &text[stop..]);
-            let front = front.trim_end_matches([' ', '(', '（', ',', '在', '@']);
+            let front = front.trim_end_matches([' ', '(', '（', ',', ':', '：', '在', '@']);
             let front = front.strip_suffix("at").unwrap_or(front).trim();
-            let rest = rest.trim_start_matches([')', '）', '处', '点', ' ', ',', '，']);
+            let rest = rest.trim_start_matches([')', '）', '处', '点', ' ', ',', '，', ':', '：']);
             (
                 text[at..stop].to_owned(),
                 format!("{front} {rest}").trim().to_owned(),
@@ -175,6 +177,8 @@ mod tests {
         assert_eq!(of("u (-20 °C) / mK"), pair("-20 °C", "u / mK"));
         assert_eq!(of("a(-20°C) / mK"), pair("-20°C", "a / mK"));
         assert_eq!(of("±10 V"), pair("±10 V", ""));
+        assert_eq!(of("1 V: ±"), pair("1 V", "±"));
+        assert_eq!(of("u: 10 V"), pair("10 V", "u"));
         for none in ["U (k=2)", "u / mm", "u1", "U95 / V", "×10^-6", "Divisor"] {
             assert_eq!(amount(none), None, "{none}");
         }

@@ -1,5 +1,7 @@
 //! Why a result has no mean or no standard deviation, and what few readings do, as sentences.
 
+use std::cmp::Ordering;
+
 use gumption_core::special::student_t_two_sided_quantile;
 use gumption_core::statistics::relative_scatter_of_s;
 use gumption_fault::{Between, Said, say};
@@ -101,8 +103,8 @@ pub(super) fn few_readings(
     let reason = result.map(|result| result.reported(&report.budget.conventions).reason);
     // Without a difference beyond the tolerance the sign of it is chance.
     let differs = reason == Some(Reason::FewReadings);
-    let narrower = differs && result.is_some_and(is_narrower);
-    let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason, narrower));
+    let width = result.filter(|_| differs).map_or(Ordering::Greater, width);
+    let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason, width));
     let space = l.pick(" ", "");
     let parts = match (dof, result) {
         (Some(dof), _) => [few_degrees(report, measurand, dof), drawn, refuted],
@@ -110,9 +112,11 @@ pub(super) fn few_readings(
             let few = l.pick("Few degrees of freedom:", "自由度小：");
             let factor = result.filter(|_| refuted.is_empty());
             let follows = factor.map_or(refuted, |result| of_factor(report, result, components));
-            let more = match narrower {
-                true => String::new(),
-                false => say!("More readings would bring both together.").in_language(l),
+            let more = match width {
+                Ordering::Greater => {
+                    say!("More readings would bring both together.").in_language(l)
+                }
+                Ordering::Less | Ordering::Equal => String::new(),
             };
             [format!("{few}{space}{drawn}"), follows, more]
         }
@@ -121,21 +125,29 @@ pub(super) fn few_readings(
     parts.join(space)
 }
 
-/// Whether the interval of Monte Carlo is narrower than that of the GUM: few readings only make it wider.
-fn is_narrower(result: &MeasurandResult) -> bool {
-    let half = |[low, high]: [f64; 2]| (high - low) / 2.0;
-    let of_gum = result.gum.coverage.half_width_for_p;
-    let found = result.monte_carlo.as_ref();
-    found.is_some_and(|found| half(found.symmetric) < of_gum)
+/// The width of the interval of Monte Carlo beside that of the GUM, beyond what its ends scatter (three standard errors): few
+/// readings only make it wider.
+fn width(result: &MeasurandResult) -> Ordering {
+    let of_gum = 2.0 * result.gum.coverage.half_width_for_p;
+    let Some(found) = &result.monte_carlo else {
+        return Ordering::Equal;
+    };
+    let [low, high] = found.symmetric;
+    let difference = high - low - of_gum;
+    match difference.abs() <= found.noise_of_ends() {
+        true => Ordering::Equal,
+        false => difference.total_cmp(&0.0),
+    }
 }
 
 /// What the reason why the statement takes its method has to do with few readings; nothing where another finding tells
 /// the reason, or the factor k tells it.
-fn of_reason(report: &Report<'_>, reason: Reason, narrower: bool) -> String {
+fn of_reason(report: &Report<'_>, reason: Reason, width: Ordering) -> String {
     let l = report.language;
     let p = probability(report.coverage_probability());
     match reason {
-        Reason::FewReadings if narrower => say!("The {p} interval of Monte Carlo is narrower than that of the GUM all the same: the shapes of other distributions make it so (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
+        Reason::FewReadings if width == Ordering::Equal => say!("The {p} interval of Monte Carlo is as wide as that of the GUM and lies elsewhere, because the model is nonlinear (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
+        Reason::FewReadings if width == Ordering::Less => say!("The {p} interval of Monte Carlo is narrower than that of the GUM all the same: the shapes of other distributions or the model make it so (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
         Reason::FewReadings => say!("The {p} interval of Monte Carlo therefore differs from that of the GUM by more than the tolerance δ (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
         Reason::NotNegative => say!("The statement takes the interval of ISO 11929, which rests on u itself (GUM 4.2.3).").in_language(l),
         _ => String::new(),

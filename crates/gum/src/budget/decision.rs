@@ -3,6 +3,7 @@
 //! the one that was found: [`Budget::at`].
 
 use gumption_core::distribution::Distribution;
+use gumption_core::quantity::{Decimal, Rounding};
 
 /// Values between two limits; a missing limit is infinite.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -14,6 +15,15 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// The limits at a distance from a value, as the decimals of both have it: 0.03 % of 10 V is 3 mV.
+    pub fn about(value: f64, distance: f64) -> Interval {
+        let exact = Interval {
+            lower: value,
+            upper: value,
+        };
+        exact.widened(distance)
+    }
+
     /// Whether the value is between the limits or on one of them.
     pub fn contains(&self, value: f64) -> bool {
         self.lower <= value && value <= self.upper
@@ -31,12 +41,29 @@ impl Interval {
         Some(self.upper - self.lower).filter(|width| width.is_finite())
     }
 
-    /// Both limits farther out by this distance, or closer by a negative one.
+    /// Both limits farther out by this distance, or closer by a negative one, as the decimals of all have it.
     pub fn widened(&self, distance: f64) -> Interval {
         Interval {
-            lower: self.lower - distance,
-            upper: self.upper + distance,
+            lower: decimal_sum(self.lower, -distance),
+            upper: decimal_sum(self.upper, distance),
         }
+    }
+}
+
+/// a + b; where that is a decimal of few digits but for a few roundings of a and b, that decimal: 0.6 − 0.54 is 0.06.
+pub(crate) fn decimal_sum(a: f64, b: f64) -> f64 {
+    /// Digits of decimals that are stated.
+    const DIGITS: i32 = 12;
+    let (sum, scale) = (a + b, a.abs().max(b.abs()));
+    if !scale.is_normal() || !sum.is_finite() {
+        return sum;
+    }
+    let place = libm::floor(libm::log10(scale)) as i32 - (DIGITS - 1);
+    let near = Decimal::from_f64(sum).round_to_place(place, Rounding::HalfEven);
+    let near = near.to_f64();
+    match (near - sum).abs() <= SAME_DECIMAL * scale {
+        true => near,
+        false => sum,
     }
 }
 
@@ -255,6 +282,7 @@ impl Follows {
 
 #[cfg(test)]
 mod tests {
+    use super::Interval;
     use crate::budget::Budget;
     use crate::budget::read;
 
@@ -275,6 +303,36 @@ mod tests {
             .map(|term| square(term.coefficient * moved.components[term.component].u))
             .sum();
         variance.sqrt()
+    }
+
+    /// 0.03 % of 10 V is 3 mV; what is no decimal stays what it is.
+    #[test]
+    fn limits_are_decimals_where_what_is_stated_is() {
+        let of = |keys: &str| {
+            let text = format!(
+                "[measurand.E]\nmodel = \"x\"\nunit = \"mV\"\n[input.x]\nvalue = 3\nunit = \"mV\"\nu = 0.1\n[conformity]\n{keys}\nrule = \"simple\"\n"
+            );
+            let loaded = read(&text, "test", "".as_ref()).expect("a budget");
+            let limits = loaded.rows[0].budget.conformity[0].tolerance;
+            [limits.lower, limits.upper]
+        };
+        assert_eq!(of("mpe = \"0.03 %\"\nmpe_of = \"10 V\""), [-3.0, 3.0]);
+        assert_eq!(
+            of("mpe = \"0.03 %\"\nnominal = \"33 mV\""),
+            [32.9901, 33.0099]
+        );
+        let third = Interval::about(45.0, 10.0 / 60.0);
+        assert_eq!(third.upper, 45.0 + 10.0 / 60.0);
+        assert_eq!(Interval::about(0.0, f64::INFINITY).upper, f64::INFINITY);
+        for (limit, guard, accepted) in [
+            (0.6, 0.54, 0.06),
+            (1.2, 1.08, 0.12),
+            (0.61, 0.549, 0.061),
+            (0.044, 0.0396, 0.0044),
+        ] {
+            let within = Interval::about(0.0, limit).widened(-guard);
+            assert_eq!([within.lower, within.upper], [-accepted, accepted]);
+        }
     }
 
     #[test]

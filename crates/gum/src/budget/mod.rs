@@ -45,6 +45,7 @@ pub use conventions::{
     Adaptive, Confirmation, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape,
     Points, StatementForm, TScale, Trials, Wanted,
 };
+pub(crate) use decision::decimal_sum;
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, GlobalRisks, Guard,
     ISO_14253_PROBABILITY, Interval, StatedTolerance,

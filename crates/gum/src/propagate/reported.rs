@@ -12,7 +12,7 @@
 
 use super::result::{
     Basis, BestEstimate, Clause8, Coverage, CoverageBasis, Gum, MeasurandResult, MonteCarlo,
-    TrialMoments,
+    TrialMoments, Validation,
 };
 use super::validation::{self, numerical_tolerance};
 use crate::budget::{Confirmation, Conventions, CoverageRule};
@@ -214,23 +214,25 @@ impl MeasurandResult {
             Clause8::Validated => Reason::Validated,
             Clause8::Undecided => match conventions.claims_moments() {
                 true if validation::refutes_moments(&self.gum, mc, delta) => {
-                    self.beside_few_readings(delta, [Reason::Undecided, Reason::MomentsDiffer])
+                    self.beside_few_readings(clause_8, [Reason::Undecided, Reason::MomentsDiffer])
                 }
                 _ => Reason::Undecided,
             },
             Clause8::NotValidated if !conventions.claims_moments() => Reason::NotValidated,
             Clause8::NotValidated if confirms(mc, &self.gum, delta) => Reason::MomentsAgree,
             Clause8::NotValidated => {
-                self.beside_few_readings(delta, [Reason::FewReadings, Reason::NotValidated])
+                self.beside_few_readings(clause_8, [Reason::FewReadings, Reason::NotValidated])
             }
         }
     }
 
     /// What follows where y or u differ: the first reason where they agree once what has few degrees of freedom has its u as
-    /// standard deviation, the second where that was not tried.
-    fn beside_few_readings(&self, delta: f64, [agree, otherwise]: [Reason; 2]) -> Reason {
+    /// standard deviation, the second where that was not tried, or where k·u of it would hide an interval that is not symmetric.
+    fn beside_few_readings(&self, at: &Validation, [agree, otherwise]: [Reason; 2]) -> Reason {
+        let found = self.monte_carlo.as_ref();
         match &self.with_normal_readings {
-            Some(moments) if moments.confirm(&self.gum, delta) => agree,
+            Some(moments) if moments.confirm(&self.gum, at.delta) => agree,
+            Some(_) if found.is_some_and(|mc| mc.is_asymmetric(at.digits)) => otherwise,
             Some(_) => Reason::NotValidatedFewReadings,
             None => otherwise,
         }
@@ -384,7 +386,7 @@ impl MonteCarlo {
     }
 
     /// By how much a sum or a difference of the ends scatters at most: three standard errors; zero where they are not known.
-    fn noise_of_ends(&self) -> f64 {
+    pub fn noise_of_ends(&self) -> f64 {
         let [_, _, low, high] = self.standard_errors;
         match low.is_finite() && high.is_finite() {
             true => 3.0 * libm::hypot(low, high),
@@ -585,6 +587,12 @@ mod tests {
         let reported = of(&found, FIXED);
         assert_eq!(reported.reason, Reason::NotValidatedFewReadings);
         assert_eq!((reported.u, reported.expanded()), (Some(1.2), Some(2.4)));
+        // y ± k·u of a lopsided distribution would hide it.
+        let lopsided = monte_carlo([-1.0, 3.0], [-1.3, 2.2], 0.0);
+        found.monte_carlo = Some(lopsided);
+        let reported = of(&found, FIXED);
+        assert_eq!(reported.reason, Reason::NotValidated);
+        assert_eq!(reported.figures().ends, Some([-1.3, 2.2]));
     }
 
     /// M3003, appendix B: k from t at the effective degrees of freedom multiplies u, as EA-4/02 has it; ILAC-P14, 5.4, and CNAS-CL01-G003

@@ -158,13 +158,17 @@ fn point(row: &Report<'_>, measurand: usize, notation: &Notation) -> CertifiedPo
         .k()
         .filter(|_| reported.coverage_factor().is_some_and(|k| k >= 1.0));
     let mut value = notation.printed_value(&figures.estimate());
-    let uncertainty = match (figures.expanded(), &k, figures.interval()) {
-        (Some(expanded), Some(k), _) => {
-            let [estimate, expanded] = notation.printed_result(&figures.estimate(), &expanded);
+    let result = notation.result(&figures).filter(|_| k.is_some());
+    let uncertainty = match (
+        figures.expanded(),
+        result.zip(k.clone()),
+        figures.interval(),
+    ) {
+        (Some(_), Some(([estimate, expanded], k)), _) => {
             value = estimate;
             CertifiedUncertainty::Expanded {
                 expanded,
-                k: k.clone(),
+                k,
                 p,
                 distribution: distribution(row, measurand, reported.uncertainty),
             }

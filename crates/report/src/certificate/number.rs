@@ -1,6 +1,7 @@
 //! Numbers and units in the notation of the D-SI.
 
-use gumption_core::quantity::{Conversion, Decimal, PowerStyle, Rounding, Unit};
+use crate::figures::Figures;
+use gumption_core::quantity::{Conversion, Decimal, PowerStyle, Rounding, RoundingRule, Unit};
 
 /// How numbers of a unit are written: in the unit itself, or in what it is defined by where the D-SI has no name for it.
 #[derive(Debug, Clone)]
@@ -54,25 +55,23 @@ impl Notation {
         self.printed(printed, |by, number| by.factor * number)
     }
 
-    /// A printed value beside its printed expanded uncertainty. Where they are converted, U has as many digits as before and two at
-    /// least, and the value as many places as U.
-    pub fn printed_result(&self, value: &str, expanded: &str) -> [String; 2] {
+    /// y and U as they are printed; where they are converted, what was computed is, and rounded once, by the rule of the statement
+    /// with two digits at least.
+    pub fn result(&self, figures: &Figures<'_>) -> Option<[String; 2]> {
         /// As many as certificates state of U (ILAC-P14, 5.4).
-        const DIGITS: i32 = 2;
-        let converted = || {
-            let by = self.conversion?;
-            let (value, expanded) = (of_machine(value)?, of_machine(expanded)?);
-            let digits = DIGITS.max(expanded.leading_place()? - expanded.place()? + 1);
-            let converted = Decimal::from_f64(by.factor * expanded.to_f64());
-            let converted =
-                converted.round_to_significant(u8::try_from(digits).ok()?, Rounding::HalfEven);
-            let place = converted.place()?;
-            let value = Decimal::from_f64(by.apply(value.to_f64()));
-            let value = value.round_to_place(place, Rounding::HalfEven);
-            Some([value, converted].map(|number| number.print(MACHINE)))
+        const DIGITS: u8 = 2;
+        let printed = figures.expanded()?;
+        let Some(by) = self.conversion else {
+            return Some([figures.estimate(), printed].map(|text| for_machines(&text)));
         };
-        let as_printed = || [self.printed_value(value), self.printed_deviation(expanded)];
-        converted().unwrap_or_else(as_printed)
+        let reported = &figures.reported;
+        let rule = RoundingRule {
+            digits: reported.rounding.digits.max(DIGITS),
+            ..reported.rounding
+        };
+        let expanded = (by.factor * reported.expanded()?).abs();
+        let pair = rule.align(by.apply(reported.estimate), expanded);
+        Some([pair.estimate, pair.uncertainty].map(|number| number.print(MACHINE)))
     }
 
     /// Without a power of ten, as factors and probabilities have to be.

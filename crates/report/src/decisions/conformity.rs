@@ -71,7 +71,7 @@ impl Assessment<'_> {
 
     /// The verdict in words. That a guard band decided against the tolerance limit itself is said.
     fn verdict(&self, verdict: Verdict) -> &'static str {
-        let inside = self.stated.tolerance.contains(self.found.estimate);
+        let inside = self.stated.tolerance.contains_decimal(self.found.estimate);
         let (english, chinese) = match (verdict, inside) {
             (Verdict::Conforming, true) => ("conforming", "合格"),
             (Verdict::Conforming, false) => (

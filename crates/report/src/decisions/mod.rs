@@ -59,7 +59,10 @@ pub(super) fn decided<'a>(report: &'a Report<'a>, measurand: usize) -> Vec<Decid
         in_full: subject.value_in_full(),
         rule: subject.rule(),
         verdict: subject.found.verdict,
-        inside: subject.stated.tolerance.contains(subject.found.estimate),
+        inside: subject
+            .stated
+            .tolerance
+            .contains_decimal(subject.found.estimate),
     });
     decided.collect()
 }

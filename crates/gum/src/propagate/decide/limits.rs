@@ -7,7 +7,7 @@
 use super::acceptance::Limits;
 use super::kernel::Kernel;
 use super::risks::{Known, risks};
-use crate::budget::{DecisionRule, GlobalRisks, Guard, Interval};
+use crate::budget::{DecisionRule, GlobalRisks, Guard, Interval, decimal_sum};
 use gumption_core::distribution::Distribution;
 use gumption_core::special::roots::last;
 
@@ -210,8 +210,8 @@ impl Situation<'_> {
         let factor = match guard {
             Guard::Amount(w) => {
                 return match side {
-                    Side::Inner => tolerance - sign * w,
-                    Side::Outer => tolerance + sign * w,
+                    Side::Inner => decimal_sum(tolerance, -sign * w),
+                    Side::Outer => decimal_sum(tolerance, sign * w),
                 };
             }
             Guard::Expanded(r) => r * self.k,
@@ -229,7 +229,7 @@ impl Situation<'_> {
             return tolerance;
         }
         if missing(width) == 0.0 {
-            return tolerance + away * width;
+            return decimal_sum(tolerance, away * width);
         }
         let mut far = width;
         for _ in 0..60 {

@@ -240,11 +240,7 @@ impl Checker<'_> {
             None => StatedTolerance::Error { of },
         };
         let nominal = nominal.unwrap_or(0.0);
-        let interval = Interval {
-            lower: nominal - width,
-            upper: nominal + width,
-        };
-        Some((interval, compared))
+        Some((Interval::about(nominal, width), compared))
     }
 
     /// Whether an amount has a unit other than one.

@@ -49,7 +49,7 @@ fn indication(
     let (l, value, ratio) = (report.language, figures.value(), significant(ratio, 2));
     let mend = match of.map(|of| of_unit(figures, of)) {
         Some(of) => say!("write nominal = \"{of}\" in place of `mpe_of`").in_language(l),
-        None => say!("add its `nominal` value").in_language(l),
+        None => say!("state its `nominal` value with `mpe`").in_language(l),
     };
     say!("{name}: {value} is compared with zero, as an error of indication is, and is {ratio} times the maximum permissible error. If it is the quantity itself, {mend}: its limits are then nominal ± mpe.").in_language(l)
 }

@@ -74,6 +74,14 @@ pub(super) fn for_unknown<'a>(
     if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
         return advice.clone();
     }
+    if name
+        .strip_prefix('°')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    {
+        return say!(
+            "minutes and seconds of arc are below 60 and stand behind whole degrees, \"30°59′\"; or write decimals, \"30.98°\""
+        );
+    }
     // Of all units only the decibel begins so.
     if name.strip_prefix("dB").is_some_and(|rest| !rest.is_empty()) {
         return say!("declare the level with its reference in the [unit] table: `{name} = \"dB\"`");
@@ -502,6 +510,13 @@ const FREQUENT: &[(&str, Said)] = &[
     ("class", CLASS),
     ("cps", say!("write `1/s`")),
     ("cpm", say!("write `1/min`")),
+    ("dpm", say!("write `1/min`")),
+    (
+        "fc",
+        say!("declare the foot-candle in the [unit] table: `fc = \"lm/ft^2\"`"),
+    ),
+    ("A°", say!("write `Å`")),
+    ("Cal", say!("write `kcal`")),
     (
         "week",
         say!("declare it in the [unit] table: `week = \"7 d\"`"),

@@ -17,7 +17,7 @@ pub(super) fn other_value(stated: &Conformity, found: &ConformityResult) -> Opti
     }
     let (y, assessment) = (found.estimate, stated.name.clone());
     match stated.stated {
-        StatedTolerance::Limits => None,
+        StatedTolerance::Limits if stated.tolerance.lower != -stated.tolerance.upper => None,
         StatedTolerance::Nominal(nominal) => {
             let error = y.abs() < (y - nominal).abs();
             error.then_some(FindingKind::ErrorMeant {
@@ -25,19 +25,23 @@ pub(super) fn other_value(stated: &Conformity, found: &ConformityResult) -> Opti
                 nominal,
             })
         }
-        StatedTolerance::Error { of } => {
-            let ratio = y.abs() / stated.tolerance.upper;
-            let indication = match of {
-                Some(of) => (y - of).abs() < y.abs(),
-                None => ratio >= INDICATION,
-            };
-            indication.then_some(FindingKind::IndicationMeant {
-                assessment,
-                ratio,
-                of,
-            })
-        }
+        StatedTolerance::Limits => indication(y, stated, None),
+        StatedTolerance::Error { of } => indication(y, stated, of),
     }
+}
+
+fn indication(y: f64, stated: &Conformity, of: Option<f64>) -> Option<FindingKind> {
+    let assessment = stated.name.clone();
+    let ratio = y.abs() / stated.tolerance.upper;
+    let indication = match of {
+        Some(of) => (y - of).abs() < y.abs(),
+        None => ratio >= INDICATION,
+    };
+    indication.then_some(FindingKind::IndicationMeant {
+        assessment,
+        ratio,
+        of,
+    })
 }
 
 #[cfg(test)]
@@ -97,6 +101,9 @@ mod tests {
         assert_eq!(found("10", "mpe = 0.5"), meant(20.0, None));
         // An error is not twenty times what is permissible, or nobody can tell.
         assert_eq!(found("9", "mpe = 0.5"), None);
+        // Limits about zero are those of an error, too.
+        assert_eq!(found("20", "lower = -0.5\nupper = 0.5"), meant(40.0, None));
+        assert_eq!(found("20", "lower = -0.5\nupper = 0.4"), None);
         let of = "mpe_of = 10\nmpe = \"10 %\"";
         assert_eq!(found("9", of), meant(9.0, Some(10.0)));
         assert_eq!(found("-1.5", of), None);

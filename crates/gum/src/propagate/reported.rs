@@ -588,8 +588,10 @@ mod tests {
         assert_eq!(reported.reason, Reason::NotValidatedFewReadings);
         assert_eq!((reported.u, reported.expanded()), (Some(1.2), Some(2.4)));
         // y ± k·u of a lopsided distribution would hide it.
-        let lopsided = monte_carlo([-1.0, 3.0], [-1.3, 2.2], 0.0);
-        found.monte_carlo = Some(lopsided);
+        found.monte_carlo = Some(MonteCarlo {
+            u: Some(1.3),
+            ..monte_carlo([-1.0, 3.0], [-1.3, 2.2], 0.0)
+        });
         let reported = of(&found, FIXED);
         assert_eq!(reported.reason, Reason::NotValidated);
         assert_eq!(reported.figures().ends, Some([-1.3, 2.2]));

@@ -129,7 +129,10 @@ impl Parser<'_> {
         let before = &self.text[left.span.clone()];
         let after = &self.text[token.span.clone()];
         let is_number = matches!(left.node, Node::Number { unit: None, .. });
-        let help = if is_number && (self.is_unit)(after) {
+        let all_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        let help = if is_number && all_digits(before) && all_digits(after) && after.len() == 3 {
+            say!("write the number without a blank: `{before}{after}`")
+        } else if is_number && (self.is_unit)(after) {
             // A letter is a quantity more often than a unit.
             match after.chars().count() > 1 {
                 true => say!(
@@ -140,10 +143,9 @@ impl Parser<'_> {
                 ),
             }
         } else {
-            let shown = before
-                .rsplit([' ', '+', '-', '*', '/', ',', '('])
-                .next()
-                .unwrap_or(before);
+            let last = before.rsplit([' ', '+', '-', '*', '/', ',', '(']).next();
+            // The sign in `2e-3` is of the number.
+            let shown = last.filter(|_| !is_number).unwrap_or(before);
             match (self.is_unit)(after) {
                 true => say!(
                     "write `{shown} * {after}` for a product; a unit stands beside a formula, `unit = \"{after}\"`, or in quotes behind a number"

@@ -237,6 +237,7 @@ impl Checker<'_> {
                 return Some(number);
             }
             if relative || (is_ratio(&own.symbol) && !is_in_ratios(&unit)) {
+                self.remark_on_level(amount, &own, &unit, context);
                 return self.fraction(amount, fraction, context);
             }
             // A source has no value that its amounts could be relative to, nothing is a part of zero, and of one both
@@ -282,6 +283,21 @@ impl Checker<'_> {
             );
         }
         self.difference_in(amount, &own, &unit, context.owner)
+    }
+
+    /// A share of a level, which is a part of its number: mostly the ratio is meant, of which the level is the logarithm.
+    fn remark_on_level(
+        &mut self,
+        amount: &Stated<Amount>,
+        own: &Unit,
+        unit: &Unit,
+        context: &Context<'_>,
+    ) {
+        let level = self.names.units.parse("dB");
+        if level.is_ok_and(|level| level.dimension == unit.dimension) {
+            let (number, owner) = (amount.value.number, context.owner);
+            self.remark(say!("{owner}: {number} {} of a level is taken of its number in {}. If the ratio is meant of which it is the logarithm, state the uncertainty in {1}.", own.symbol, unit.symbol));
+        }
     }
 
     /// Whether a unit is that of a content, mg/kg or mmol/mol: an uncertainty larger than the content itself is not what

@@ -56,6 +56,7 @@ impl Checker<'_> {
         let range = match (&table.range, &table.span) {
             (Some(part), Some(span)) => {
                 let span = self.positive_deviation(span, "span", context, Share::Unsaid)?;
+                self.remark_on_span(span, context);
                 self.part(part, "range", Some(span), context)?
             }
             _ => 0.0,
@@ -119,6 +120,15 @@ impl Checker<'_> {
             part.number,
             context.owner
         ));
+    }
+
+    /// A value beyond the range of which an accuracy is stated: mostly a span in another unit.
+    fn remark_on_span(&mut self, span: f64, context: &Context<'_>) {
+        let Some(value) = context.value().filter(|value| value.abs() > span) else {
+            return;
+        };
+        let (owner, unit) = (context.owner, &context.unit.symbol);
+        self.remark(say!("The value of {owner}, {} {unit}, lies beyond the span of its specification, {} {unit}. Unless the instrument reads so far, state the span with its unit: span = \"…\".", show(value), show(span)));
     }
 
     /// A stated fraction of the reading or of the range.

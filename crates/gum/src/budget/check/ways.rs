@@ -343,10 +343,11 @@ impl Checker<'_> {
                 if value != 0.0 =>
             {
                 let double = context.at(Some(2.0 * value));
-                let told = self.messages.faults.len();
+                let told = (self.messages.faults.len(), self.messages.remarks.len());
                 let doubled = self.draft(table, way, &double);
-                // What would be wrong with twice the estimate is no fault of the file.
-                self.messages.faults.truncate(told);
+                // What would be wrong with twice the estimate is no fault of the file, and nothing to be told.
+                self.messages.faults.truncate(told.0);
+                self.messages.remarks.truncate(told.1);
                 doubled.and_then(|doubled| proportion(doubled.u / draft.u - 1.0))
             }
             _ => None,

@@ -127,22 +127,21 @@ fn certificates_with_k_or_p() {
     }
 }
 
-/// U = 30 nm + 0.4·10⁻⁶·L with k = 2, of gauge blocks of 100 mm: 70 nm.
+/// U = 30 µV + 0.4·10⁻⁶·V with k = 2, at 100 V: 70 µV.
 #[test]
 fn a_certificate_may_grow_with_the_value() {
-    let grows = "unit = \"mm\"\ncertificate = { U = \"30 nm\", reading = \"0.4 ppm\", k = 2 }";
+    let grows = "certificate = { U = \"30 µV\", reading = \"0.4 ppm\", k = 2 }";
     close(component(&format!("value = 100\n{grows}")).0, 35e-6);
-    let of = |value: f64| {
-        let text = format!(
-            "[measurand.Y]\nmodel = \"X\"\nunit = \"mm\"\n[input.X]\nvalue = {value}\n{grows}\n"
-        );
-        budget(&text).remarks.len()
+    let remarks = |value: f64| {
+        budget(&one(&format!("value = {value}\n{grows}")))
+            .remarks
+            .len()
     };
-    assert_eq!([of(0.0), of(100.0)], [1, 0]);
+    assert_eq!([remarks(0.0), remarks(100.0)], [1, 0]);
     let without_unit = grows.replace("\"0.4 ppm\"", "4e-7");
     assert_eq!(
         faults(&one(&format!("value = 100\n{without_unit}")))[0].0,
-        "B0112"
+        "B0111"
     );
 }
 
@@ -161,6 +160,17 @@ fn specification_resolution_and_bits() {
         component("value = 1\nbits = 3\nrange = [-4, 4]").0,
         0.5 / 3f64.sqrt(),
     );
+}
+
+#[test]
+fn a_value_beyond_the_span_is_told() {
+    let remarks = |value: f64| {
+        let text = format!(
+            "[measurand.Y]\nmodel = \"X\"\nunit = \"mV\"\n[input.X]\nvalue = {value}\nunit = \"mV\"\nspecification = {{ reading = \"0.1 %\", range = \"0.01 %\", span = 10 }}\n"
+        );
+        budget(&text).remarks.len()
+    };
+    assert_eq!([remarks(2000.0), remarks(-10.0)], [1, 0]);
 }
 
 #[test]

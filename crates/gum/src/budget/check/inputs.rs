@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Draft, Drafts, Location, show};
 use super::entries::entries;
@@ -336,6 +337,10 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> Option<Pieces> {
         if entry.way == Way::Source {
+            if entry.table.share() == Share::OfValue && context.value() == Some(0.0) {
+                let owner = context.owner;
+                self.remark(say!("A relative error of {owner}, whose value is 0, is nothing. State how the source acts by its `sensitivity`, without `relative`."));
+            }
             return self.shared_pieces(entry, context, register);
         }
         if let Some(value) = self.constant_readings(entry, context.unit, list) {

@@ -227,12 +227,7 @@ impl Checker<'_> {
     ) -> Option<f64> {
         let relative = entry.table.share() == Share::OfValue;
         let whole = if relative {
-            let value = context.value().unwrap_or(0.0);
-            if value == 0.0 {
-                let owner = context.owner;
-                self.remark(say!("A relative error of {owner}, whose value is 0, is nothing. State how the source acts by its `sensitivity`, without `relative`."));
-            }
-            value
+            context.value().unwrap_or(0.0)
         } else {
             1.0
         };

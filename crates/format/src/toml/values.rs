@@ -279,7 +279,7 @@ impl FromToml for Date {
 
 /// Year, month and day of `2027/3/1`, `2027年3月1日` and `1.3.2027`; with slashes the first of two small numbers may be
 /// either, and nothing is said.
-fn day_first(text: &str) -> Option<String> {
+pub(super) fn day_first(text: &str) -> Option<String> {
     let mut parts = text
         .split(['.', '/', '-', '年', '月', '日', ' '])
         .filter(|part| !part.is_empty());

@@ -45,7 +45,7 @@ pub fn budget(
                 .iter()
                 .any(|index| matters(cause.contribution(*index), &figures.coefficients[*index]))
         })
-        .map(|(number, cause)| InputOfCause::of(campaign, found, cause, number, &coefficients))
+        .flat_map(|(number, cause)| inputs(campaign, found, (cause, number), &coefficients))
         .collect();
     for index in &coefficients {
         measurand(&mut text, found, *index, &inputs);
@@ -129,27 +129,78 @@ struct InputOfCause {
 /// A coefficient of a budget: its place in the calibration, and the coefficient itself.
 type Place<'f> = (usize, &'f Coefficient);
 
-impl InputOfCause {
-    /// The input of a cause; scatter that is not one error for all coefficients is a vector, of which they take their parts.
-    fn of(
-        campaign: &Campaign,
-        found: &Calibration,
-        cause: &Cause,
-        number: usize,
-        coefficients: &[usize],
-    ) -> InputOfCause {
-        let of_place = |index: &usize| (*index, &found.figures.coefficients[*index]);
-        let places: Vec<Place<'_>> = coefficients.iter().map(of_place).collect();
-        let name = name_of(cause, number);
-        let count = cause.effects.ncols();
-        match doubt_of(campaign, cause) {
-            Some(doubt) if count == 1 || (count <= LONGEST && doubt.dof.is_infinite()) => {
-                stated(cause, doubt, &name, &places)
-            }
-            _ => independent(cause, &name, &places),
+/// The inputs of a cause; scatter that is not one error for all coefficients is a vector, of which they take their parts.
+fn inputs(
+    campaign: &Campaign,
+    found: &Calibration,
+    (cause, number): (&Cause, usize),
+    coefficients: &[usize],
+) -> Vec<InputOfCause> {
+    let of_place = |index: &usize| (*index, &found.figures.coefficients[*index]);
+    let places: Vec<Place<'_>> = coefficients.iter().map(of_place).collect();
+    let name = name_of(cause, number);
+    let count = cause.effects.ncols();
+    match doubt_of(campaign, cause) {
+        Some(doubt) if count == 1 || (count <= LONGEST && doubt.dof.is_infinite()) => {
+            vec![stated(cause, doubt, &name, &places)]
+        }
+        _ if cause.dof.len() == count && (2..=LONGEST).contains(&count) => {
+            with_own_dof(cause, &name, &places)
+        }
+        _ => vec![independent(cause, &name, &places)],
+    }
+}
+
+/// Errors of which each has degrees of freedom of its own, as the averages of dwells have: a vector for those that have as many, of
+/// which each is stated by itself.
+fn with_own_dof(cause: &Cause, name: &str, places: &[Place<'_>]) -> Vec<InputOfCause> {
+    let mut groups: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (column, dof) in cause.dof.iter().map(|dof| counted(*dof)).enumerate() {
+        match groups.iter_mut().find(|(own, _)| *own == dof) {
+            Some((_, columns)) => columns.push(column),
+            None => groups.push((dof, vec![column])),
         }
     }
+    let is_alone = groups.len() == 1;
+    let input = |(number, (dof, columns)): (usize, (f64, Vec<usize>))| {
+        let name = match is_alone {
+            true => name.to_owned(),
+            false => format!("{name}_{}", number + 1),
+        };
+        let mut input = InputOfCause {
+            terms: Vec::new(),
+            text: String::new(),
+        };
+        for (index, one) in places {
+            let slopes = columns
+                .iter()
+                .map(|column| cause.effects[(*index, *column)]);
+            let slopes: Vec<f64> = slopes.collect();
+            if slopes.iter().any(|slope| matters(*slope, one)) {
+                input.act((*index, one), &slopes, &name, &one.unit.difference());
+            }
+        }
+        let mut width = match columns.as_slice() {
+            [_] => "u = 1.0\n".to_owned(),
+            columns => format!("u = [{}]\n", vec!["1.0"; columns.len()].join(", ")),
+        };
+        if dof.is_finite() {
+            let _ = writeln!(width, "dof = {dof:?}");
+        }
+        width += type_line(cause.evaluation, &width);
+        let _ = write!(
+            input.text,
+            "\n[input.{}]\n{}\n{width}",
+            key(&name),
+            zeros(columns.len())
+        );
+        input
+    };
+    let inputs = groups.into_iter().enumerate().map(input);
+    inputs.filter(|input| !input.terms.is_empty()).collect()
+}
 
+impl InputOfCause {
     /// Adds what errors of the name `errors` do to a coefficient, per unit of each of them.
     fn act(&mut self, (index, one): Place<'_>, slopes: &[f64], errors: &str, unit: &Unit) {
         let name = format!("{}_by_{errors}", one.name);

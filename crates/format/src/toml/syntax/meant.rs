@@ -14,6 +14,7 @@ use crate::toml::numbers::{
     of_plus_minus, of_prefix_for_point, of_range, parted_by_plus_minus, quoted, quotient,
     several_numbers, without_comma, without_sign,
 };
+use crate::toml::values::day_first;
 
 /// Words that people try, and the key that they mean.
 pub type Synonyms = [(&'static str, &'static str)];
@@ -65,6 +66,7 @@ impl<'a> Stop<'a> {
         self.repeated()
             .or_else(|| self.nothing())
             .or_else(|| self.placeholder())
+            .or_else(|| self.grouped())
             .or_else(|| self.number())
             .or_else(|| self.key(synonyms))
             .or_else(|| self.text())
@@ -120,6 +122,22 @@ impl<'a> Stop<'a> {
             self.refused(message, say!("expected a number or a text in quotes"))
                 .help(say!("write what it is in its place, or leave the key out"))
         })
+    }
+
+    /// A number in groups of three, `1.234.567,8` and `1,234,567.8`, or a day with points, `01.03.2026`: the parser stops within it.
+    fn grouped(&self) -> Option<Fault> {
+        let line = &self.text[line_of(self.span.start, self.text)];
+        let (_, value) = line.split_once('=')?;
+        let value = value.split('#').next().unwrap_or(value).trim();
+        if let Some(day) = day_first(value) {
+            let message = say!("`{value}` is not how a date is written in TOML");
+            let fault = self.refused(message, say!("expected a date"));
+            return Some(fault.help(say!("write {day}")));
+        }
+        let number = without_groups(value)?;
+        let message = say!("`{value}` is not how a number is written in TOML");
+        let fault = self.refused(message, say!("expected a number"));
+        Some(fault.help(say!("write {number}", number = number)))
     }
 
     /// A value without quotes that is a number to people.
@@ -416,6 +434,38 @@ impl<'a> Stop<'a> {
             fault.help(say!("write a comma behind the member that stands before"))
         })
     }
+}
+
+/// A number without the signs between its groups of three digits, where they are no decimal sign: of `1,234` nobody can tell.
+fn without_groups(text: &str) -> Option<String> {
+    let (sign, digits) = match text.strip_prefix(['+', '-']) {
+        Some(digits) => (&text[..1], digits),
+        None => ("", text),
+    };
+    let is_grouped = |whole: &str, sign: char| {
+        let mut groups = whole.split(sign);
+        let first = groups.next().unwrap_or_default();
+        let all = |group: &str, lengths: std::ops::RangeInclusive<usize>| {
+            lengths.contains(&group.len()) && group.bytes().all(|b| b.is_ascii_digit())
+        };
+        all(first, 1..=3) && groups.clone().count() > 0 && groups.all(|group| all(group, 3..=3))
+    };
+    [('.', ','), (',', '.')]
+        .into_iter()
+        .find_map(|(group, decimal)| {
+            let (whole, decimals) = match digits.split_once(decimal) {
+                Some((whole, decimals)) => (whole, Some(decimals)),
+                None => (digits, None),
+            };
+            let is_one = is_grouped(whole, group)
+                && decimals.is_none_or(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()))
+                && (decimals.is_some() || whole.matches(group).count() > 1);
+            let whole = whole.replace(group, "");
+            is_one.then(|| match decimals {
+                Some(decimals) => format!("{sign}{whole}.{decimals}"),
+                None => format!("{sign}{whole}"),
+            })
+        })
 }
 
 /// Year, month and day with slashes between them, `2026/03/01`, as TOML writes a day.

@@ -14,6 +14,7 @@ use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
 use gumption_core::quantity::{Decimal, Unit, to_digits};
+use gumption_core::special::student_t_sf;
 use gumption_core::statistics::{Dd, OutlierTest, Serial, Series, pooled, range};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -35,6 +36,38 @@ const FEWEST_FOR_SERIAL: usize = 10;
 
 /// Level of significance where none is stated.
 const SIGNIFICANCE: f64 = 0.05;
+
+/// The reading farthest from the others.
+struct Farthest {
+    reading: f64,
+    /// Of one so far among as many with normal errors, at most.
+    probability: f64,
+}
+
+/// The reading farthest from the mean of the others, in units of their standard deviation, with the rounding of all in it: what is rounded
+/// may show no scatter.
+fn farthest(readings: &[f64]) -> Option<Farthest> {
+    let places = readings
+        .iter()
+        .filter_map(|x| Decimal::from_f64(*x).place());
+    let step = libm::exp10(f64::from(places.min()?));
+    let n = readings.len() as f64;
+    let (mean, squares) = mean_and_squares(readings);
+    let far = |x: &f64| (x - mean).abs();
+    let reading = *readings.iter().max_by(|a, b| far(a).total_cmp(&far(b)))?;
+    if n < 3.0 {
+        return None;
+    }
+    // Of the others: n·(x − mean)² / (n − 1) of the squares are its own.
+    let apart = (reading - mean) * n / (n - 1.0);
+    let of_others = (squares - apart * apart * (n - 1.0) / n).max(0.0);
+    let s = libm::hypot((of_others / (n - 2.0)).sqrt(), step / 12f64.sqrt());
+    let t = apart.abs() / (s * (1.0 + 1.0 / (n - 1.0)).sqrt());
+    Some(Farthest {
+        reading,
+        probability: (2.0 * n * student_t_sf(t, n - 2.0)).min(1.0),
+    })
+}
 
 /// What readings say of themselves.
 fn statistics(series: &Series, readings: &[Dd], effective: Option<f64>) -> Statistics {
@@ -97,6 +130,9 @@ impl Checker<'_> {
         let (m, words) = averaged(of, n);
         if of == ReadingsOf::Mean && table.autocorrelated.is_none() {
             self.serial_remark(&series, context);
+        }
+        if table.outlier_test.is_none() {
+            self.slip_remark(&plain, context);
         }
         let evaluated = Evaluated {
             u: s / m.sqrt(),
@@ -221,6 +257,16 @@ impl Checker<'_> {
             false => say!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). s/√n is then too small. Write autocorrelated = true, or model the drift."),
             true => say!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). They alternate; look for a periodic disturbance."),
         });
+    }
+
+    /// Remarks on a reading so far from the others that it may be a slip of the pen: it is not left out, and nobody asked for a test.
+    fn slip_remark(&mut self, readings: &[f64], context: &Context<'_>) {
+        /// So few sets of normal readings are told to hold a slip that do not.
+        const FEW: f64 = 0.001;
+        if let Some(slip) = farthest(readings).filter(|farthest| farthest.probability < FEW) {
+            let (owner, reading) = (context.owner, show(slip.reading));
+            self.remark(say!("{owner}: the reading {reading} lies far from the others, with normal errors in one of {} series at most. If it is a slip, correct it: it was not left out. outlier_test = \"grubbs\" tests it.", show(to_digits(1.0 / slip.probability.max(1e-9), 1))));
+        }
     }
 
     /// The component with its t distribution.

@@ -369,13 +369,10 @@ file = "run.csv"
     }
 }
 
-#[test]
-fn written_budgets_give_the_same_uncertainties() {
+/// Budgets of one coefficient, of the other and of both are evaluated to what the calibration found.
+fn written_budgets_agree(toml: &str, csv: &str) {
     use gumption_gum::propagate::{Options, evaluate};
-    let toml = RATE.to_owned()
-        + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
-    let toml = toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)");
-    let campaign = campaign(&toml, RATES);
+    let campaign = campaign(toml, csv);
     let found = calibrate(&campaign).expect("coefficients");
     for places in [vec![0], vec![1], vec![0, 1]] {
         let text = super::super::budget(
@@ -407,6 +404,32 @@ fn written_budgets_give_the_same_uncertainties() {
             assert!((joint.correlation[(0, 1)] - r).abs() < 1e-9);
         }
     }
+}
+
+#[test]
+fn written_budgets_give_the_same_uncertainties() {
+    let toml = RATE.to_owned()
+        + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
+    written_budgets_agree(
+        &toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)"),
+        RATES,
+    );
+}
+
+/// Dwells of different lengths: each average has degrees of freedom of its own, and each coefficient those that follow.
+#[test]
+fn written_budgets_keep_the_freedom_of_dwells() {
+    let toml = "equations = \"U = K*x + b\"\nnoise.from = \"dwells\"\n[parameter]\nK = {}\nb = {}\n[recording]\nfile = \"run.csv\"\nsteps = \"x\"\n";
+    let mut csv = String::from("x,U\n");
+    for (x, count) in [(0, 6), (1, 9), (2, 6), (3, 14)] {
+        for i in 0..count {
+            csv += &format!(
+                "{x},{}\n",
+                2.0 * f64::from(x) + 0.01 * f64::from(i * i * 7 % 11)
+            );
+        }
+    }
+    written_budgets_agree(toml, &csv);
 }
 
 /// Two inputs with one shared source, of sensitivities 1 and 2, are one error that acts with both.

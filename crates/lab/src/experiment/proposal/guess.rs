@@ -15,6 +15,8 @@ pub(super) struct Guess<'r> {
     pub column: &'r Column,
     /// Its role.
     pub role: RoleWord,
+    /// A cell that is no number, in a column of numbers.
+    pub stray: Option<&'r str>,
 }
 
 impl Guess<'_> {

@@ -20,7 +20,7 @@ use gumption_core::quantity::{UnitTable, show};
 use gumption_core::statistics::range;
 use gumption_fault::language::Language;
 use gumption_fault::{Rejection, Said, say};
-use gumption_format::csv::{Data, Recording};
+use gumption_format::csv::{Column, Data, Recording};
 use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
@@ -47,7 +47,8 @@ pub fn proposal(
     language: Language,
 ) -> Result<String, Rejection> {
     let table = Recording::read_all(file, recording, &UnitTable::default())?;
-    let columns = guessed(&table);
+    let numbers: Vec<Column> = table.columns.iter().map(as_numbers).collect();
+    let columns = guessed(&table, &numbers);
     let body = match procedure {
         Some(procedure) => by_procedure(procedure, &columns, language),
         None => without_procedure(&columns, language),
@@ -82,17 +83,47 @@ fn unknown(language: Language) -> String {
     )
 }
 
-fn guessed(table: &Recording) -> Vec<Guess<'_>> {
+fn guessed<'r>(table: &'r Recording, numbers: &'r [Column]) -> Vec<Guess<'r>> {
     let mut taken = BTreeSet::new();
-    let roles = roles(&table.columns);
-    let guesses = table.columns.iter().zip(roles);
+    let guesses = table.columns.iter().zip(numbers).zip(roles(numbers));
     guesses
-        .map(|(column, role)| Guess {
+        .map(|((written, column), role)| Guess {
             name: identifier(&column.role, &mut taken),
             column,
             role,
+            stray: match (&written.data, &column.data) {
+                (Data::Labels(labels), Data::Numbers(_)) => {
+                    let mut levels = labels.levels.iter().filter(|level| !level.is_empty());
+                    levels
+                        .find(|level| number(level).is_none())
+                        .map(String::as_str)
+                }
+                _ => None,
+            },
         })
         .collect()
+}
+
+/// A column of texts of which more than half are numbers is one of numbers, of which some cells are to be mended.
+fn as_numbers(column: &Column) -> Column {
+    let Data::Labels(labels) = &column.data else {
+        return column.clone();
+    };
+    let of_row = labels.of_row.iter();
+    let numbers = of_row.map(|level| number(labels.levels.get(*level as usize)?));
+    let numbers: Vec<Option<f64>> = numbers.collect();
+    let count = numbers.iter().flatten().count();
+    match 2 * count > numbers.len() {
+        true => Column {
+            data: Data::Numbers(numbers.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect()),
+            ..column.clone()
+        },
+        false => column.clone(),
+    }
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok()
 }
 
 // ---- the text --------------------------------------------------------------------------------------------------
@@ -152,7 +183,11 @@ fn declared(guess: &Guess<'_>, language: Language) -> String {
 }
 
 /// What is in a column, in one line.
-fn within(Guess { column, role, .. }: &Guess<'_>) -> Said {
+fn within(guess: &Guess<'_>) -> Said {
+    let Guess { column, role, .. } = guess;
+    if let Some(stray) = guess.stray {
+        return say!("numbers but for some cells: \"{stray}\" is none, and is to be mended");
+    }
     match &column.data {
         Data::Labels(labels) if *role == RoleWord::Time => {
             let rows = [labels.of_row.first(), labels.of_row.last()]
@@ -230,6 +265,30 @@ mod tests {
             Some("U out (mV)")
         );
         assert_eq!(table["equations"].as_str(), Some("U_out = a_2 + b*a"));
+    }
+
+    /// A cell with a thousands separator, or of what was not found, makes no labels of the others.
+    #[test]
+    fn a_stray_cell_makes_no_labels() {
+        for stray in ["\"1,020.3\"", "<0.6"] {
+            let text = format!("Load [N],Reading [N]\n0,0.0\n10,10.1\n20,{stray}\n30,30.2\n");
+            let table = of(&text);
+            assert_eq!(role(&table, "Reading"), "output", "{stray}");
+            let written = proposal("run.csv", &text, None, Language::English).expect("a table");
+            assert!(
+                written.contains("is none, and is to be mended"),
+                "{written}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_called_a_setpoint_is_read_by_nothing() {
+        let table =
+            of("Setpoint,Reference [°C],DUT [°C]\n0,-0.01,0.19\n20,19.97,20.25\n40,40.01,40.32\n");
+        let roles = ["Setpoint", "Reference", "DUT"].map(|name| role(&table, name));
+        assert_eq!(roles[2], "output");
+        assert_eq!(table["equations"].as_str(), Some("DUT = a + b*Reference"));
     }
 
     #[test]

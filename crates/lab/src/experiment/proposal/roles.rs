@@ -21,9 +21,13 @@ pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
         .collect();
     // What is set takes few values, what is read many; of several that are read the last that is no condition is the output, and with it
     // those that differ by their axis.
-    let last = |is: &dyn Fn(&Column) -> bool| open.iter().rev().find(|at| is(&columns[**at]));
+    let last = |is: &dyn Fn(&Column) -> bool| {
+        let mut read = open.iter().rev().filter(|at| !is_nominal(&columns[**at]));
+        read.find(|at| is(&columns[**at]))
+    };
     let output = last(&|column| !is_set(column) && !is_condition(column))
         .or_else(|| last(&|column| !is_condition(column)))
+        .or_else(|| last(&|_| true))
         .or(open.last())
         .copied();
     for at in &open {
@@ -31,14 +35,22 @@ pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
             roles[*at] = Some(RoleWord::Output);
         }
     }
-    let rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
+    let best_of = |rest: &[usize]| {
+        let candidates = rest.iter().map(|at| &columns[*at]);
+        let best = output.and_then(|output| followed(&columns[output], candidates));
+        best.map(|place| rest[place])
+    };
+    let mut rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
+    // Beside a reference that is read, and that the output follows as well, what was to be set tells nothing.
+    rest.sort_by_key(|at| is_nominal(&columns[*at]));
+    if best_of(&rest).is_some_and(|best| !is_nominal(&columns[best])) {
+        rest.retain(|at| !is_nominal(&columns[*at]));
+    }
     let are_conditions = rest.iter().all(|at| is_condition(&columns[*at]));
     let are_read = rest.iter().all(|at| !is_set(&columns[*at]));
     // A temperature is a condition, unless it is set, or nothing else is there, and the output follows it best of all. What is read
     // while something else is set is one, too, unless the output follows it.
-    let candidates = rest.iter().map(|at| &columns[*at]);
-    let best = output.and_then(|output| followed(&columns[output], candidates));
-    let best = best.map(|place| rest[place]);
+    let best = best_of(&rest);
     for at in rest {
         let column = &columns[at];
         let is_followed = best.is_some_and(|best| best == at || is_kin(column, &columns[best]));
@@ -405,6 +417,22 @@ fn is_set(column: &Column) -> bool {
     };
     let different: BTreeSet<u64> = numbers.iter().map(|x| x.to_bits()).collect();
     2 * different.len() <= numbers.len()
+}
+
+/// Whether it is called what was to be set, which nothing reads.
+fn is_nominal(column: &Column) -> bool {
+    const WORDS: [&str; 8] = [
+        "setpoint",
+        "set point",
+        "set_point",
+        "nominal",
+        "target",
+        "sollwert",
+        "设定",
+        "标称",
+    ];
+    let name = column.name.to_lowercase();
+    WORDS.iter().any(|word| name.contains(word))
 }
 
 /// Whether it is a condition by its unit, name or numbers: a temperature, a pressure, a humidity; the air of an inhabited place.

@@ -167,3 +167,26 @@ fn elements_of_a_vector_may_have_readings() {
         format!("{text}readings = [[1, 2, 4, 3], [2, 3, 7, 5]]\n[[joint]]\ninputs = [\"X\"]\n");
     assert!(budget(&joint).groups[0].correlation[(0, 1)] > 0.9);
 }
+
+/// A slip of the pen among readings is told, also where the others are rounded alike; a last digit is none.
+#[test]
+fn a_slip_among_readings_is_told() {
+    let remarks = |readings: &str| budget(&one(&format!("readings = {readings}"))).remarks;
+    for slip in [
+        "[10.01, 10.02, 100.1, 10.03, 10.02, 10.01]",
+        "[1.234, 1236, 1.235]",
+        "[5.0, 5.0, 5.0, 50.0, 5.0]",
+    ] {
+        let found = remarks(slip);
+        assert_eq!(found.len(), 1, "{slip}");
+        assert!(found[0].to_string().contains("lies far from the others"));
+    }
+    for fine in [
+        "[10, 10, 10, 11]",
+        "[10.0, 10.0, 10.1, 10.0, 10.3]",
+        "[1.234, 1.239, 1.235]",
+        "[1, 2]",
+    ] {
+        assert!(remarks(fine).is_empty(), "{fine}");
+    }
+}

@@ -1,8 +1,9 @@
-//! Numbers as they are written elsewhere: with full-width digits, a power of ten, groups of digits, no digit before the point, angles in
-//! minutes and seconds.
+//! Numbers and days as they are written elsewhere: with full-width digits, a power of ten, groups of digits, no digit before the point,
+//! angles in minutes and seconds; the day first.
 
 use std::ops::Range;
 
+use gumption_core::calendar::Day;
 use gumption_core::letters;
 
 /// A number, as TOML writes it, and what stands behind it, of a text that writes the number in another way.
@@ -202,6 +203,27 @@ fn unsigned(text: &str) -> Option<f64> {
     let text = text.trim();
     let digits = text.starts_with(|c: char| c.is_ascii_digit());
     text.parse::<f64>().ok().filter(|_| digits)
+}
+
+/// Year, month and day of `2027/3/1`, `2027年3月1日` and `1.3.2027`; with slashes the first of two small numbers may be
+/// either, and nothing is said.
+pub(crate) fn day_first(text: &str) -> Option<String> {
+    let mut parts = text
+        .split(['.', '/', '-', '年', '月', '日', ' '])
+        .filter(|part| !part.is_empty());
+    let parts = [parts.next()?, parts.next()?, parts.next()?];
+    let [a, b, c] = [
+        parts[0].parse::<u16>().ok()?,
+        parts[1].parse().ok()?,
+        parts[2].parse().ok()?,
+    ];
+    let (year, month, day) = match (a > 31, c > 31, text.contains('/')) {
+        (true, false, _) => (a, b, c),
+        (false, true, false) => (c, b, a),
+        _ => return None,
+    };
+    let day = format!("{year:04}-{month:02}-{day:02}");
+    Day::read(&day).map(|_| day)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use super::numbers::{
 };
 use super::strings::StringMap;
 use super::table::{FromToml, Raw, Reader};
-use crate::spelled::{prefix_for_point, range, sexagesimal, spelled};
+use crate::spelled::{day_first, prefix_for_point, range, sexagesimal, spelled};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
 
@@ -275,27 +275,6 @@ impl FromToml for Date {
     fn schema() -> Value {
         json!({ "type": "string", "pattern": "^\\d{4}-\\d{2}-\\d{2}" })
     }
-}
-
-/// Year, month and day of `2027/3/1`, `2027年3月1日` and `1.3.2027`; with slashes the first of two small numbers may be
-/// either, and nothing is said.
-pub(super) fn day_first(text: &str) -> Option<String> {
-    let mut parts = text
-        .split(['.', '/', '-', '年', '月', '日', ' '])
-        .filter(|part| !part.is_empty());
-    let parts = [parts.next()?, parts.next()?, parts.next()?];
-    let [a, b, c] = [
-        parts[0].parse::<u16>().ok()?,
-        parts[1].parse().ok()?,
-        parts[2].parse().ok()?,
-    ];
-    let (year, month, day) = match (a > 31, c > 31, text.contains('/')) {
-        (true, false, _) => (a, b, c),
-        (false, true, false) => (c, b, a),
-        _ => return None,
-    };
-    let day = format!("{year:04}-{month:02}-{day:02}");
-    Day::read(&day).map(|_| day)
 }
 
 /// That a date has the form of one, but is none: `2026-02-30`.

@@ -7,14 +7,13 @@ use gumption_fault::libraries::of_toml;
 use gumption_fault::{Fault, Said, say};
 
 use super::places::{bare, calculation_at, line_of, word_at};
-use crate::spelled::{prefix_for_point, range, spelled};
+use crate::spelled::{day_first, prefix_for_point, range, spelled};
 use crate::toml::faults::TOML_SYNTAX;
 use crate::toml::numbers::{
     amount, concise, has_fractional_exponent, is_calculation, of_concise, of_fractional_exponent,
     of_plus_minus, of_prefix_for_point, of_range, parted_by_plus_minus, quoted, quotient,
     several_numbers, without_comma, without_sign,
 };
-use crate::toml::values::day_first;
 
 /// Words that people try, and the key that they mean.
 pub type Synonyms = [(&'static str, &'static str)];
@@ -130,12 +129,18 @@ impl<'a> Stop<'a> {
         let (_, value) = line.split_once('=')?;
         let value = value.split('#').next().unwrap_or(value).trim();
         if let Some(day) = day_first(value) {
-            let message = say!("`{value}` is not how a date is written in TOML");
+            let message = say!(
+                "`{marked}` is not how a date is written in TOML",
+                marked = value
+            );
             let fault = self.refused(message, say!("expected a date"));
             return Some(fault.help(say!("write {day}")));
         }
         let number = without_groups(value)?;
-        let message = say!("`{value}` is not how a number is written in TOML");
+        let message = say!(
+            "`{marked}` is not how a number is written in TOML",
+            marked = value
+        );
         let fault = self.refused(message, say!("expected a number"));
         Some(fault.help(say!("write {number}", number = number)))
     }

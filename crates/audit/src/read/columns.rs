@@ -128,9 +128,29 @@ pub fn names_limits(head: &str) -> bool {
     words.any(|word| head.contains(word))
 }
 
+/// Heads of the units of sensitivity coefficients.
+const UNITS_OF_COEFFICIENTS: &[&str] = &[
+    "cunit",
+    "ciunit",
+    "c_iunit",
+    "unitofc",
+    "unitofci",
+    "unitofc_i",
+    "sensitivityunit",
+    "unitofsensitivity",
+    "灵敏系数单位",
+    "灵敏系数的单位",
+];
+
+/// Whether a head is that of the units of sensitivity coefficients.
+pub fn is_unit_of_coefficients(head: &str) -> bool {
+    UNITS_OF_COEFFICIENTS.contains(&compact(head).as_str())
+}
+
 /// In this order: the first that fits decides. Words are compact ones.
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[
+    (Role::Unit, How::Is, UNITS_OF_COEFFICIENTS),
     (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "share", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
     (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重", "u(x)/x", "u(xi)/xi", "u(xi)/|xi|", "u/x"]),
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "²", "平方", "squared", "variance", "方差"]),

@@ -20,7 +20,7 @@ pub(crate) const STEP: &[&str] = &["digital step", "resolution", "scale interval
 /// Those of [`STEP`] that name nothing else: there are digital instruments and steps of a procedure.
 pub(crate) const RESOLUTION: &[&str] = STEP.split_at(15).0;
 #[rustfmt::skip]
-pub(crate) const CYCLING: &[&str] = &["cycling", "cyclic", "cycles", "amplitude", "sinusoid", "arcsine", "u-shaped", "u shaped", "oscillat", "幅值", "振幅", "周期", "正弦", "反正弦", "u形", "循环"];
+pub(crate) const CYCLING: &[&str] = &["cycling", "cyclic", "cycles", "amplitude", "sinusoid", "arcsine", "u-shaped", "u shaped", "u-form", "u-verteilung", "oscillat", "幅值", "振幅", "周期", "正弦", "反正弦", "u形", "循环"];
 #[rustfmt::skip]
 pub(crate) const LIMITS: &[&str] = &["±", "+/-", "limits", "limit", "mpe", "maximum permissible error", "maximum permissible", "tolerance", "accuracy", "within", "at most", "half-width", "half width", "允许误差", "最大允差", "最大允许", "允差", "误差限", "误差范围", "极限", "界限", "半宽", "不超过", "specification", "spec.", "bound", "准确度", "范围"];
 #[rustfmt::skip]

@@ -81,9 +81,8 @@ fn symbol(text: &str) -> Option<Whole> {
     }
     match compact(name).as_str() {
         "uc" | "wc" | "w(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u"
-        | "sum" | "summe" | "rss" | "total" | "gesamt" | "合成" | "合计" => {
-            Some(Whole::Combined)
-        }
+        | "rss" => Some(Whole::Combined),
+        _ if is_bare_sum(name) => Some(Whole::Combined),
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
         "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),
@@ -299,6 +298,12 @@ pub(super) fn multiple_alone(text: &str) -> Option<Printed> {
         || name.len() == behind.len();
     let is_u = matches!(name, "u" | "uc" | "u_c" | "u(y)" | "u_c(y)");
     (is_factor(factor.value) && is_u && is_joined).then_some(factor)
+}
+
+/// Whether a text says no more than that something is a sum.
+pub(super) fn is_bare_sum(text: &str) -> bool {
+    const WORDS: [&str; 6] = ["sum", "summe", "total", "gesamt", "合成", "合计"];
+    WORDS.contains(&compact(text).as_str())
 }
 
 /// Whether a label calls an uncertainty a total, which is U alone, and u_c above a U that is stated below it.

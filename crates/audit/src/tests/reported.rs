@@ -180,3 +180,45 @@ fn a_count_is_no_standard_deviation() {
          Repeatability of 10,0.12,µL,1,,0.12\nu_c,,,,,0.130\nU (k=2),,,,,0.26\n",
     );
 }
+
+/// The units of the sensitivity coefficients may stand in a column of their own.
+#[test]
+fn coefficients_have_units_beside_them() {
+    let sheet = |big_u: &str| {
+        format!(
+            "Density of a liquid by pycnometer\nSymbol,Quantity,Value,Unit,u,c_i,c_i unit,u_i / (kg/m3)\nm1,Mass empty,25.1034,g,0.0003,-0.020,1/cm3,-0.0060\n\
+             m2,Mass filled,75.0213,g,0.0003,0.020,1/cm3,0.0060\nV,Volume,50.010,cm3,0.010,-0.01996,g/cm6,-0.20\nrho,Density,998.16,kg/m3,0.20,,,\n\
+             \"U = {big_u} kg/m3 (k = 2)\",,,,,,,\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.40"));
+    assert_eq!(first("sheet.csv", &sheet("0.20")), "k-forgotten");
+}
+
+/// A German form calls the arc sine by its shape.
+#[test]
+fn a_u_form_is_an_arc_sine() {
+    let sheet = |divisor: &str, u: &str, whole: [&str; 2]| {
+        format!(
+            "Einflussgröße;Halbweite;Verteilung;Teiler;ui in %\nKalibrierfaktor (k = 2);1,0 %;Normal;2;0,50\nFehlanpassung;0,7 %;U-Form;{divisor};{u}\n\
+             Wiederholbarkeit des Mittelwerts;0,15 %;Normal;1;0,15\nkombinierte Standardmessunsicherheit;;;;{}\nerweiterte Messunsicherheit k=2;;;;{}\n",
+            whole[0], whole[1]
+        )
+    };
+    is_sound("sheet.csv", &sheet("√2", "0,49", ["0,72", "1,4"]));
+    assert_ne!(
+        answer("sheet.csv", &sheet("√3", "0,40", ["0,66", "1,3"])).0,
+        Verdict::Sound
+    );
+}
+
+/// A result that is called a sum is one, and no u_c.
+#[test]
+fn a_result_may_be_called_a_sum() {
+    is_sound(
+        "sheet.csv",
+        "Two resistors in series calibrated against one standard\nModel: R = R1 + R2\nSymbol,Quantity,Estimate,Standard uncertainty,Sensitivity,Contribution\n\
+         R1,Resistor 1,100.01 ohm,0.010 ohm,1,0.010 ohm\nR2,Resistor 2,200.02 ohm,0.020 ohm,1,0.020 ohm\nR,Sum,300.03 ohm,0.022 ohm,,\n\
+         \"U = 0.045 ohm, k = 2\",,,,,\n",
+    );
+}

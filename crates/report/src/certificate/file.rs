@@ -122,6 +122,9 @@ pub fn certificate_template(language: Language) -> String {
     text.to_string()
 }
 
+/// Where the keys above all tables stand.
+const TOP: Range<usize> = 0..0;
+
 /// Collects faults while the tables are checked.
 struct Check<'t> {
     text: &'t str,
@@ -140,7 +143,7 @@ impl Check<'_> {
             stated => self.day(stated),
         };
         if file.begin.is_none() && !file.refused {
-            self.missing("begin", "", end.clone());
+            self.missing("begin", "", TOP);
         }
         if let (Some(first), Some(stated)) = (&begin, &file.end)
             && last.as_ref().is_some_and(|last| last < first)
@@ -174,7 +177,7 @@ impl Check<'_> {
         let customer = self.stated(&file.customer, "customer", &end);
         let items = self.stated(&file.item, "item", &end);
         let persons = self.stated(&file.person, "person", &end);
-        let number = self.text(&file.number, "number", "", &end);
+        let number = self.text(&file.number, "number", "", &TOP);
         let contact = laboratory.map(|table| &table.contact);
         let contact = contact.map(|table| self.contact(table, "laboratory", &end));
         let contact = contact.unwrap_or_default();
@@ -214,8 +217,12 @@ impl Check<'_> {
     }
 
     fn missing(&mut self, key: &str, table: &str, place: Range<usize>) {
-        let fault = Fault::new(MISSING_KEY, place, needed(key, table));
-        self.faults.push(fault.label(say!("`{key}` is missing")));
+        let fault = Fault::new(MISSING_KEY, place.clone(), needed(key, table));
+        let fault = fault.label(say!("`{key}` is missing"));
+        self.faults.push(match place == TOP {
+            true => fault.help(say!("write it above the first header: {key} = \"…\"")),
+            false => fault,
+        });
     }
 
     /// What has to be stated.

@@ -16,6 +16,8 @@ const NAMES: &[(&str, &str)] = &[
     ("dreieck", "triangle"),
     ("trapezoid", "trapezoid"),
     ("u-shaped", "u-shaped"),
+    ("u-form", "u-shaped"),
+    ("u-verteilung", "u-shaped"),
     ("t-distribution", "t"),
 ];
 

@@ -237,6 +237,10 @@ impl Reading<'_> {
         if self.sentence(place, text) {
             return;
         }
+        // `R | Sum | 300.03`: what the result is called, behind its symbol.
+        if self.is_open(Whole::Y) && footer::is_bare_sum(text) {
+            return;
+        }
         let of_force = || (text == "W" && self.around.labels == 0).then_some(Whole::Expanded);
         match footer::label(text, &self.around.measurand).or_else(of_force) {
             // `总不确定度 | 0.208` above `U | 0.42` is u_c.

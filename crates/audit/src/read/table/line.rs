@@ -3,7 +3,7 @@
 use crate::claim::{Figure, Row, Unplaced};
 use crate::printed::{self, Place, Printed};
 use crate::read::amounts;
-use crate::read::columns::{Role, is_unit, names_factor};
+use crate::read::columns::{Role, is_unit, is_unit_of_coefficients, names_factor};
 use crate::read::footer;
 use crate::read::kind::{names_distribution, spelled};
 use crate::read::words::{alone, has};
@@ -143,6 +143,9 @@ impl<'a> Line<'a> {
         }
         if figure.unit.is_empty() && matches!(column.role, Role::Value | Role::Used | Role::U) {
             figure.unit = self.unit_beside(column.index).to_string();
+        }
+        if figure.unit.is_empty() && column.role == Role::C {
+            figure.unit = self.unit_of_coefficient().to_string();
         }
         figure.unit = alone(&figure.unit).to_string();
         figure.at(self.place(column.index))
@@ -349,13 +352,23 @@ impl<'a> Line<'a> {
 
     /// The unit that the columns of units have for a figure: of several the one behind it, else the last in front of it.
     fn unit_beside(self, index: usize) -> &'a str {
-        let units = self.located.columns.iter().filter(|c| c.role == Role::Unit);
+        let is_own = |c: &&Column| c.role == Role::Unit && !is_unit_of_coefficients(&c.head);
+        let units = self.located.columns.iter().filter(is_own);
         let mut units: Vec<usize> = units.map(|c| c.index).collect();
         units.sort_unstable();
         let behind = units.iter().find(|unit| **unit == index + 1);
         let in_front = || units.iter().rev().find(|unit| **unit < index);
         let unit = behind.or_else(in_front).or(units.first());
         unit.map_or("", |unit| self.grid.cell(self.row, *unit).text.trim())
+    }
+
+    /// What a column of their units has for the sensitivity coefficient.
+    fn unit_of_coefficient(self) -> &'a str {
+        let mut columns = self.located.columns.iter();
+        let column = columns.find(|c| c.role == Role::Unit && is_unit_of_coefficients(&c.head));
+        column.map_or("", |column| {
+            self.grid.cell(self.row, column.index).text.trim()
+        })
     }
 
     /// The figure in the first column of what was computed from others whose head is so called.

@@ -116,7 +116,7 @@ impl Checker<'_> {
         };
         let (unit, _) = part.unit.clone().unwrap_or_default();
         self.remark(say!(
-            "{} {unit} of the value of {}, which is 0, is nothing. If the specification is one of another quantity, state it there, or this part of it as `fixed`.",
+            "{} {unit} of the value of {}, which is 0, is nothing. If it is a share of another quantity, state it there, or what it comes to as an amount (`fixed`; in a certificate within U).",
             part.number,
             context.owner
         ));

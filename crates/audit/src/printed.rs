@@ -125,7 +125,7 @@ impl Printed {
     }
 
     /// By what it divides: itself, or the reciprocal of what is below one and multiplies, `0.577` for √3.
-    pub(crate) fn as_divisor(self) -> Printed {
+    pub(crate) fn into_divisor(self) -> Printed {
         match self.value > 0.0 && self.value < 1.0 {
             true => Printed {
                 value: 1.0 / self.value,

@@ -381,7 +381,10 @@ impl Made {
     /// Whether it comes of the figures of a column by the divisors of another.
     fn comes_of(&self, grid: &Grid, located: &Located, index: usize, divisor: usize) -> bool {
         let divides = |row: &&usize| {
-            let divisor = grid.cell(**row, divisor).figure().map(Printed::as_divisor);
+            let divisor = grid
+                .cell(**row, divisor)
+                .figure()
+                .map(Printed::into_divisor);
             let mut pairs = [
                 self.pair(grid, **row, index),
                 self.converted(grid, located, **row, index),

@@ -130,7 +130,7 @@ impl<'a> Line<'a> {
         let column = self.located.column(role)?;
         let figure = self.grid.cell(self.row, column.index).figure()?;
         let figure = match role {
-            Role::Divisor => figure.as_divisor(),
+            Role::Divisor => figure.into_divisor(),
             _ => figure,
         };
         Some(self.in_column(column, figure))

@@ -46,7 +46,7 @@ fn figure_of(grid: &Grid, row: usize, located: &Located) -> Option<Printed> {
 /// Whether the figure in front of the divisor of a row gives its u by it, as U does not: that is a product.
 fn is_divided(grid: &Grid, row: usize, located: &Located) -> Option<bool> {
     let place = located.column(Role::Divisor)?.index;
-    let divisor = grid.cell(row, place).figure()?.as_divisor();
+    let divisor = grid.cell(row, place).figure()?.into_divisor();
     let in_front = grid.filled(row).take_while(|(column, _)| *column < place);
     let used = in_front.filter_map(|(_, cell)| cell.figure()).last()?;
     let u = figure_of(grid, row, located)?;

@@ -301,7 +301,7 @@ pub(super) fn multiple_alone(text: &str) -> Option<Printed> {
 }
 
 /// Whether a text says no more than that something is a sum.
-pub(super) fn is_bare_sum(text: &str) -> bool {
+pub fn is_bare_sum(text: &str) -> bool {
     const WORDS: [&str; 6] = ["sum", "summe", "total", "gesamt", "合成", "合计"];
     WORDS.contains(&compact(text).as_str())
 }

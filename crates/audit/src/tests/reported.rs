@@ -222,3 +222,16 @@ fn a_result_may_be_called_a_sum() {
          \"U = 0.045 ohm, k = 2\",,,,,\n",
     );
 }
+
+/// A total below quantities is u_c, also where their column is one of symbols and it is no root of the sum of squares.
+#[test]
+fn a_total_is_no_source() {
+    let sheet = |u_c: &str, big_u: &str| {
+        format!(
+            "Quantity,Value,PDF,Divisor,Uncertainty\n\"Reference standard, certificate (k = 2)\",0.24 °C,Gaussian,2,0.120 °C\n\
+             Zero stability,0.13 °C,rect.,SQRT(3),0.0751 °C\nHysteresis,0.19 °C,rect.,SQRT(3),0.110 °C\nTotal,,,,{u_c} °C\nU (k=2),,,,{big_u} °C\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.179", "0.36"));
+    assert_eq!(first("sheet.csv", &sheet("0.305", "0.61")), "linear-sum");
+}

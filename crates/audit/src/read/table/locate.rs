@@ -69,6 +69,7 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
         }
         let what = match what(grid, row, located, strange == 0) {
             What::Footer if sources::is_source(grid, row, located) => What::Row,
+            What::Row if sources::is_total(grid, row, located) => What::Footer,
             What::Row if is_summed && sources::lacks_inputs(grid, row, located) => What::Footer,
             what => what,
         };

@@ -21,11 +21,24 @@ pub(super) fn is_sum(grid: &Grid, row: usize) -> bool {
     label(grid, row) == Some(Whole::Combined)
 }
 
+/// Whether a row below others is called no more than a sum, also in the column of symbols, and has nothing that inputs have.
+pub(super) fn is_total(grid: &Grid, row: usize, located: &Located) -> bool {
+    let first = grid.filled(row).next();
+    let is_called = first.is_some_and(|(_, cell)| footer::is_bare_sum(&cell.text));
+    // What is called an uncertainty may be what was put in, or what comes out.
+    let roles = [Role::Distribution, Role::Divisor, Role::C, Role::Type];
+    is_called && lacks(&roles, grid, row, located)
+}
+
 /// Whether a row has nothing of what the rows of its table have that makes them inputs.
 pub(super) fn lacks_inputs(grid: &Grid, row: usize, located: &Located) -> bool {
+    let roles = [Role::Distribution, Role::Used, Role::C, Role::Type];
+    lacks(&roles, grid, row, located)
+}
+
+fn lacks(roles: &[Role], grid: &Grid, row: usize, located: &Located) -> bool {
     let has = |row: usize| {
-        let roles = [Role::Distribution, Role::Used, Role::C, Role::Type];
-        let mut columns = roles.into_iter().filter_map(|role| located.column(role));
+        let mut columns = roles.iter().filter_map(|role| located.column(*role));
         columns.any(|column| !grid.cell(row, column.index).is_empty())
     };
     let inputs = located.rows.iter().filter(|row| has(**row)).count();

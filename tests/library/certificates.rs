@@ -357,7 +357,7 @@ fn degrees_of_freedom_stay_with_their_points() {
 }
 
 /// Units without a name in the D-SI are what they are defined by, and U keeps two digits: 760.12 mmHg are 101341.0 Pa, and
-/// 0.098 mmHg 13.07 Pa.
+/// 0.098 mmHg 13.07 Pa. What was computed is converted: 0.001023 in are 0.02599 mm, and the 0.0010 in of the statement 0.0254 mm.
 #[test]
 fn other_units_are_converted_to_two_digits_of_uncertainty() {
     let folder = folder("units");
@@ -370,6 +370,7 @@ fn other_units_are_converted_to_two_digits_of_uncertainty() {
         input("P", 760.12, "mmHg", 0.05),
         input("f", 3000.2, "r/min", 0.2),
         input("T", 77.36, "°F", 0.11),
+        input("l", 1.00023, "in", 0.000522),
     ];
     let text = digital(&folder, "units", &budget.concat());
     let values = all_between(&text, "si:value");
@@ -386,6 +387,7 @@ fn other_units_are_converted_to_two_digits_of_uncertainty() {
     has("101341", "\\pascal", "13");
     has("18850.8", "\\radian\\minute\\tothe{-1}", "2.5");
     has("25.20", "\\degreecelsius", "0.12");
+    has("25.406", "\\milli\\metre", "0.026");
 }
 
 /// ISO/IEC 17025, 7.8.6: 0.30 + 0.10 is within ±0.40, and 0.102 that is printed as 0.10 is not.

@@ -248,10 +248,7 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
     // `U = 63 %`: the uncertainty itself.
     let expanded = claimed.footer.expanded.as_ref();
     let relative = expanded.filter(|own| units::fraction(&own.unit).is_some());
-    let without_own = |line: &str| match relative {
-        Some(own) => line.replacen(&own.text, "", 1),
-        None => line.to_owned(),
-    };
+    let without_own = |line: &str| relative.map_or(line.to_owned(), |own| without(line, own));
     // `U at 50 % load`: a point, and no probability.
     let mut levels = lines.filter_map(|line| {
         let own = without_own(line);
@@ -259,6 +256,21 @@ pub(crate) fn unusual_level(claimed: &Claimed) -> Option<f64> {
         probability(&at_point.to_lowercase())
     });
     levels.next().filter(|level| !USUAL.contains(level))
+}
+
+/// A line without a figure in percent, the last one that reads so: the 99 of `U99 = 9 %` is not its 9.
+fn without(line: &str, figure: &Printed) -> String {
+    let is_it = |at: &usize| {
+        let is_begun = line[..*at].ends_with(|c: char| c.is_ascii_digit() || ".,".contains(c));
+        let behind = line[at + figure.text.len()..].trim_start();
+        !is_begun && behind.starts_with(&figure.unit)
+    };
+    let places = line.match_indices(&figure.text).map(|(at, _)| at);
+    let mut line_without = line.to_owned();
+    if let Some(at) = places.filter(is_it).last() {
+        line_without.replace_range(at..at + figure.text.len(), "");
+    }
+    line_without
 }
 
 fn is_of_certificate(lower: &str) -> bool {

@@ -68,6 +68,19 @@ fn an_uncertainty_in_percent_is_no_probability() {
     );
 }
 
+/// The 9 of `U99 = 9 %` is the uncertainty, and the 99 its probability.
+#[test]
+fn a_level_stays_beside_an_uncertainty_in_percent() {
+    is_sound(
+        "sheet.txt",
+        "Source                        Half-width or U / %   Distribution   Divisor   u / %\n\
+         Calibration (k = 2)           4.0                   normal         2         2.0\n\
+         Repeatability of the mean     2.5                   normal         1         2.5\n\
+         Reference drift               2.2                   rectangular    √3        1.27\n\n\
+         u_c = 3.44 %\nU99 = 9 %\n",
+    );
+}
+
 /// `Uncertainty` behind a divisor is u, whatever the figures are called of which it was made, and also by multipliers.
 #[test]
 fn an_uncertainty_is_what_the_divisor_makes() {

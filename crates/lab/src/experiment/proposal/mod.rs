@@ -284,11 +284,13 @@ mod tests {
 
     #[test]
     fn what_is_called_a_setpoint_is_read_by_nothing() {
-        let table =
-            of("Setpoint,Reference [°C],DUT [°C]\n0,-0.01,0.19\n20,19.97,20.25\n40,40.01,40.32\n");
-        let roles = ["Setpoint", "Reference", "DUT"].map(|name| role(&table, name));
-        assert_eq!(roles[2], "output");
-        assert_eq!(table["equations"].as_str(), Some("DUT = a + b*Reference"));
+        let rows = "0,-0.01,0.19\n20,19.97,20.25\n40,40.01,40.32\n";
+        for rows in [rows.to_owned(), rows.repeat(3)] {
+            let table = of(&format!("Setpoint,Reference [°C],DUT [°C]\n{rows}"));
+            let roles = ["Setpoint", "Reference", "DUT"].map(|name| role(&table, name));
+            assert_eq!(roles, ["ignore", "stimulus", "output"]);
+            assert_eq!(table["equations"].as_str(), Some("DUT = a + b*Reference"));
+        }
     }
 
     #[test]
